@@ -1,0 +1,113 @@
+//! The `[domain]` table of the config.
+
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// Boundary loops and symmetries of the domain.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DomainParams {
+    /// Symmetries of boundary, surface, supports and loads that make two designs the same: `mirror-x`, `mirror-y`, `rotate-180`.
+    #[serde(default)]
+    pub symmetries: Vec<Symmetry>,
+    /// Boundary loops; the first is the outer one.
+    #[serde(rename = "loop")]
+    pub loops: Vec<LoopParams>,
+}
+
+/// A symmetry of the domain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Symmetry {
+    /// x → −x about the middle of the domain.
+    MirrorX,
+    /// y → −y about the middle of the domain.
+    MirrorY,
+    /// Half a turn about the middle of the domain.
+    #[serde(rename = "rotate-180")]
+    Rotate180,
+}
+
+/// One boundary loop. Points are `[x, y]` or `[x, y, z]`, in metres.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum LoopParams {
+    /// A closed polyline; the last point is joined to the first.
+    Polyline {
+        /// The points, in metres.
+        points_m: Vec<Vec<f64>>,
+        /// Which points are corners.
+        #[serde(default)]
+        corners: Corners,
+        /// With `corners = "auto"`: a point is a corner where the curve turns by more than this, in degrees.
+        #[serde(default = "default_corner_angle")]
+        corner_angle_deg: f64,
+    },
+    /// A circle.
+    Circle {
+        /// The centre, in metres.
+        center_m: Vec<f64>,
+        /// The radius, in metres.
+        radius_m: f64,
+    },
+    /// An ellipse.
+    Ellipse {
+        /// The centre, in metres.
+        center_m: Vec<f64>,
+        /// The two semi-axes, in metres.
+        semi_axes_m: [f64; 2],
+        /// Angle of the first axis from x, in degrees.
+        #[serde(default)]
+        rotation_deg: f64,
+    },
+    /// A closed polyline (`l`) of an OBJ file.
+    Obj {
+        /// The file, relative to the config.
+        file: PathBuf,
+        /// Which polyline of the file, from 0.
+        #[serde(default)]
+        polyline: usize,
+        /// Which points are corners.
+        #[serde(default = "Corners::auto")]
+        corners: Corners,
+        /// With `corners = "auto"`: a point is a corner where the curve turns by more than this, in degrees.
+        #[serde(default = "default_corner_angle")]
+        corner_angle_deg: f64,
+    },
+}
+
+/// Which points of a polyline are corners: all, those found by angle, or a list of indices.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Corners {
+    /// `"all"` or `"auto"`.
+    Rule(CornerRule),
+    /// Indices of points, from 0.
+    Indices(Vec<usize>),
+}
+
+/// The words that [`Corners`] knows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CornerRule {
+    /// Every point is a corner.
+    All,
+    /// Points where the curve turns by more than `corner_angle_deg`.
+    Auto,
+}
+
+impl Corners {
+    fn auto() -> Self {
+        Self::Rule(CornerRule::Auto)
+    }
+}
+
+impl Default for Corners {
+    fn default() -> Self {
+        Self::Rule(CornerRule::All)
+    }
+}
+
+fn default_corner_angle() -> f64 {
+    30.0
+}

@@ -1,0 +1,189 @@
+//! The `[pattern]` table of the config.
+
+use serde::{Deserialize, Serialize};
+
+/// How the canonical mesh becomes a dense pattern (GEOMETRY §2).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct PatternParams {
+    /// Which rule sets the density of strips.
+    pub density: Density,
+    /// With `density = "panels"`: the number of panels every design comes as near as it can to.
+    pub panels: usize,
+    /// With `density = "target_length"`: the edge length, in metres.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub target_length_m: Option<f64>,
+    /// Designs with more panels are refused before any geometry.
+    pub max_faces: usize,
+    /// How the dense pattern is relaxed.
+    pub relax: RelaxParams,
+    /// Limits of a pattern that can be built, as constraints.
+    pub limits: LimitParams,
+}
+
+impl Default for PatternParams {
+    fn default() -> Self {
+        Self {
+            density: Density::Panels,
+            panels: 2000,
+            target_length_m: None,
+            max_faces: 20_000,
+            relax: RelaxParams::default(),
+            limits: LimitParams::default(),
+        }
+    }
+}
+
+/// The rule that sets the density of strips.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Density {
+    /// As near as possible to a number of panels.
+    Panels,
+    /// A given target length.
+    TargetLength,
+}
+
+/// Relaxation of the dense pattern.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct RelaxParams {
+    /// Weights of the smoothing.
+    pub kind: RelaxKind,
+    /// Number of Jacobi sweeps.
+    pub sweeps: usize,
+    /// Share of the way to the target that each sweep goes, in 0..1.
+    pub damping: f64,
+}
+
+impl Default for RelaxParams {
+    fn default() -> Self {
+        Self { kind: RelaxKind::Area, sweeps: 100, damping: 0.5 }
+    }
+}
+
+/// Weights of the smoothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum RelaxKind {
+    /// Mean of the neighbours.
+    Uniform,
+    /// Mean of the centroids of the adjacent panels, weighted by their areas.
+    Area,
+    /// Cotangent weights (Pinkall, Polthier 1993).
+    Cotangent,
+    /// Equal force densities, solved directly (Schek 1974).
+    ForceDensity,
+}
+
+/// Limits of a pattern that can be built.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct LimitParams {
+    /// Shortest member, in metres; default 2 × section width.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub min_edge_m: Option<f64>,
+    /// Longest member as a multiple of the target length.
+    pub max_edge_factor: f64,
+    /// Smallest panel angle, in degrees.
+    pub min_angle_deg: f64,
+    /// Most members at a node.
+    pub max_valence: usize,
+    /// Largest panel, in m²; no limit if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_panel_area_m2: Option<f64>,
+}
+
+impl Default for LimitParams {
+    fn default() -> Self {
+        Self {
+            min_edge_m: None,
+            max_edge_factor: 1.75,
+            min_angle_deg: 20.0,
+            max_valence: 8,
+            max_panel_area_m2: None,
+        }
+    }
+}
+
+/// The `[topology]` table: where strings start and by which rules they grow.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct TopologyParams {
+    /// `"skeleton"`, or `{ file = "…" }`, `{ grid = [m, n] }`, or `{ vertices = […], faces = […] }`.
+    pub initial: InitialMesh,
+    /// Marker of the initial mesh as two vertices of an edge; default the first dart of face 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub marker: Option<[usize; 2]>,
+    /// `"domain"` or `"plain"` (GRAMMAR §2).
+    pub rules: RulesParam,
+    /// What to do with pinched boundary vertices (GEOMETRY §1).
+    pub pinched: Pinched,
+}
+
+impl Default for TopologyParams {
+    fn default() -> Self {
+        Self {
+            initial: InitialMesh::Word(Skeleton::Skeleton),
+            marker: None,
+            rules: RulesParam::Domain,
+            pinched: Pinched::Reject,
+        }
+    }
+}
+
+/// The initial coarse quad mesh.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum InitialMesh {
+    /// The word `"skeleton"`.
+    Word(Skeleton),
+    /// An OBJ, COMPAS JSON or base-mesh JSON file.
+    File {
+        /// The file, relative to the config.
+        file: std::path::PathBuf,
+    },
+    /// A rectangular grid of m × n faces, for a domain with four corners and no hole.
+    Grid {
+        /// m and n.
+        grid: [usize; 2],
+    },
+    /// Written out.
+    Inline {
+        /// Vertices `[x, y, z]`, in metres.
+        vertices: Vec<[f64; 3]>,
+        /// Faces, counter-clockwise.
+        faces: Vec<Vec<usize>>,
+        /// For pseudo-quads, face → pole vertex.
+        #[serde(default)]
+        poles: std::collections::BTreeMap<String, usize>,
+    },
+}
+
+/// The word `"skeleton"`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Skeleton {
+    /// Decomposition along the medial axis.
+    Skeleton,
+}
+
+/// The set of rules (GRAMMAR §2).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum RulesParam {
+    /// The grammar as it stands.
+    Plain,
+    /// No flat faces, no vanished sides.
+    Domain,
+}
+
+/// What to do with pinched vertices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Pinched {
+    /// Infeasible.
+    Reject,
+    /// Allowed.
+    Allow,
+}

@@ -1,0 +1,7 @@
+//! Topology only: coarse quad meshes without coordinates (GRAMMAR §1).
+
+pub mod canonical;
+pub mod ids;
+
+pub use canonical::{CanonicalMesh, Code, Strip};
+pub use ids::{FaceId, StripId, VertexId};

@@ -1,0 +1,1 @@
+//! Results folder and interchange formats: one exporter a file, each returns bytes.

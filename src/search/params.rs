@@ -1,0 +1,180 @@
+//! The `[objectives]` and `[search]` tables of the config.
+
+use serde::{Deserialize, Serialize};
+
+/// What is minimised.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ObjectivesParams {
+    /// Names of the objectives.
+    pub minimise: Vec<String>,
+    /// Ideal value of each, for normalising and hypervolume; empty = from the first feasible evaluations.
+    #[serde(default)]
+    pub ideal: Vec<f64>,
+    /// Reference value of each; empty = 1.1 × the worst of the first feasible evaluations.
+    #[serde(default)]
+    pub reference: Vec<f64>,
+}
+
+/// How strings are bred (RUN "The search").
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SearchParams {
+    /// Population size μ.
+    pub population: usize,
+    /// Number of generations.
+    pub generations: u32,
+    /// Stop after this many structural evaluations.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub evaluations: Option<u64>,
+    /// Stop after this many minutes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub minutes: Option<f64>,
+    /// Stop when the hypervolume has not grown for this many generations.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stall_generations: Option<u32>,
+    /// Bounds of a string's length.
+    pub tokens: TokenBounds,
+    /// The first population.
+    pub initial: InitialParams,
+    /// Probability of crossover.
+    pub crossover: f64,
+    /// Token-wise mutation, rates per token.
+    pub mutation: MutationParams,
+    /// Which phenotypes count as the same.
+    pub duplicates: DuplicateParams,
+    /// The bounded archive that parents may come from.
+    pub archive: ArchiveParams,
+}
+
+impl Default for SearchParams {
+    fn default() -> Self {
+        Self {
+            population: 48,
+            generations: 25,
+            evaluations: None,
+            minutes: None,
+            stall_generations: None,
+            tokens: TokenBounds::default(),
+            initial: InitialParams::default(),
+            crossover: 0.9,
+            mutation: MutationParams::default(),
+            duplicates: DuplicateParams::default(),
+            archive: ArchiveParams::default(),
+        }
+    }
+}
+
+/// Bounds of a string's length, in tokens.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct TokenBounds {
+    /// Fewest tokens of a bred string.
+    pub min: usize,
+    /// Most tokens.
+    pub max: usize,
+}
+
+impl Default for TokenBounds {
+    fn default() -> Self {
+        Self { min: 4, max: 40 }
+    }
+}
+
+/// The first population.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct InitialParams {
+    /// How random strings are made.
+    pub kind: Initialiser,
+    /// Strings that are always evaluated first; may be shorter than `tokens.min`.
+    pub seeds: Vec<String>,
+}
+
+impl Default for InitialParams {
+    fn default() -> Self {
+        Self { kind: Initialiser::Aware, seeds: vec![String::new()] }
+    }
+}
+
+/// How random strings are made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Initialiser {
+    /// All tokens equally likely.
+    Uniform,
+    /// A's in pairs with two or more T's between.
+    Structured,
+    /// As structured, but follows the decoding and closes a pair only where that is applicable.
+    Aware,
+}
+
+/// Token-wise mutation, rates per token.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct MutationParams {
+    /// Rate of insertion.
+    pub insert: f64,
+    /// Rate of removal.
+    pub remove: f64,
+    /// Rate of substitution.
+    pub substitute: f64,
+}
+
+impl Default for MutationParams {
+    fn default() -> Self {
+        Self { insert: 0.02, remove: 0.02, substitute: 0.02 }
+    }
+}
+
+/// Which phenotypes count as the same, and what happens to them.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct DuplicateParams {
+    /// A child nearer than this topological distance to a known design is bred anew; 0 = rule off, at most 3.
+    pub min_distance: u32,
+    /// What "the same" means.
+    pub equivalence: EquivalenceParams,
+    /// How often a child is bred anew before a random string takes its place.
+    pub tries: u32,
+}
+
+impl Default for DuplicateParams {
+    fn default() -> Self {
+        Self { min_distance: 1, equivalence: EquivalenceParams::default(), tries: 20 }
+    }
+}
+
+/// Options of isomorphism (GRAMMAR §6).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct EquivalenceParams {
+    /// Boundary loops and corners count.
+    pub placed: bool,
+    /// Parallel strips do not count.
+    pub reduce: bool,
+    /// A mirrored mesh is the same.
+    pub mirror: bool,
+}
+
+impl Default for EquivalenceParams {
+    fn default() -> Self {
+        Self { placed: true, reduce: true, mirror: false }
+    }
+}
+
+/// The bounded ε-grid archive.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ArchiveParams {
+    /// Side of a grid box, as a share of each normalised objective.
+    pub epsilon: f64,
+    /// Most members.
+    pub max: usize,
+}
+
+impl Default for ArchiveParams {
+    fn default() -> Self {
+        Self { epsilon: 0.01, max: 200 }
+    }
+}

@@ -1,0 +1,320 @@
+//! The `[structure]` table of the config. Defaults are the paper's gridshell.
+
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// How the pattern is built, supported, loaded and judged.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StructureParams {
+    /// 1 = first order, 2 = second order.
+    #[serde(default = "defaults::order")]
+    pub order: u8,
+    /// Relative change of the axial forces at which the second-order iteration of a search stops.
+    #[serde(default = "defaults::second_order_tolerance")]
+    pub second_order_tolerance: f64,
+    /// The height of the section: fixed, or sized to the requirements.
+    #[serde(default)]
+    pub height: HeightParams,
+    /// Elements per member: a number, or `"auto"` = ceil(L / (1.5 target length)).
+    #[serde(default)]
+    pub elements_per_member: ElementsPerMember,
+    /// Timoshenko shear deformation.
+    #[serde(default)]
+    pub shear_deformation: bool,
+    /// The material.
+    #[serde(default)]
+    pub material: MaterialParams,
+    /// The section, all but its height.
+    #[serde(default)]
+    pub section: SectionParams,
+    /// Which members count for `utilisation`.
+    #[serde(default)]
+    pub utilisation: UtilisationParams,
+    /// Supports; what several entries fix at a node is fixed together.
+    #[serde(default = "defaults::supports", rename = "support")]
+    pub supports: Vec<SupportParams>,
+    /// Named load cases.
+    #[serde(default = "defaults::loads")]
+    pub loads: BTreeMap<String, LoadParams>,
+    /// Combinations: for each, the factor of each load case.
+    #[serde(default = "defaults::combinations")]
+    pub combinations: BTreeMap<String, BTreeMap<String, f64>>,
+    /// Requirements, as constraints.
+    #[serde(default = "defaults::requirements", rename = "requirement")]
+    pub requirements: Vec<RequirementParams>,
+}
+
+/// The section's height: fixed or sized.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged, deny_unknown_fields)]
+pub enum HeightParams {
+    /// The same given height for all designs.
+    Fixed {
+        /// Height, in metres.
+        fixed_m: f64,
+    },
+    /// The least height that meets all requirements.
+    Sized {
+        /// Smallest height tried, in metres.
+        min_m: f64,
+        /// Largest height tried, in metres.
+        max_m: f64,
+        /// Step of the rounded height shown to people, in metres.
+        step_m: f64,
+    },
+}
+
+impl Default for HeightParams {
+    fn default() -> Self {
+        Self::Fixed { fixed_m: 0.45 }
+    }
+}
+
+/// Into how many elements a member is split.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum ElementsPerMember {
+    /// This many.
+    Number(u32),
+    /// The word `"auto"`.
+    Word(Auto),
+}
+
+/// The word `"auto"`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Auto {
+    /// Chosen by the program.
+    Auto,
+}
+
+impl Default for ElementsPerMember {
+    fn default() -> Self {
+        Self::Number(1)
+    }
+}
+
+/// A linear-elastic material. Default: steel S355.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct MaterialParams {
+    /// Young's modulus E, in Pa.
+    pub youngs_modulus_pa: f64,
+    /// Poisson's ratio ν.
+    pub poisson: f64,
+    /// Density, in kg/m³.
+    pub density_kg_m3: f64,
+    /// Yield strength fy, in Pa.
+    pub yield_pa: f64,
+    /// Partial factor γM0.
+    pub gamma_m0: f64,
+}
+
+impl Default for MaterialParams {
+    fn default() -> Self {
+        Self { youngs_modulus_pa: 210e9, poisson: 0.3, density_kg_m3: 7850.0, yield_pa: 355e6, gamma_m0: 1.0 }
+    }
+}
+
+/// A section but for its height. All lengths in metres.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum SectionParams {
+    /// A rectangular hollow section.
+    Box {
+        /// Width, in metres.
+        width_m: f64,
+        /// Wall thickness, in metres.
+        thickness_m: f64,
+    },
+    /// A solid round bar; its diameter is the height.
+    Round {},
+    /// A round tube; its outer diameter is the height.
+    Tube {
+        /// Wall thickness, in metres.
+        thickness_m: f64,
+    },
+}
+
+impl Default for SectionParams {
+    fn default() -> Self {
+        Self::Box { width_m: 0.25, thickness_m: 0.02 }
+    }
+}
+
+/// Which members count for `utilisation` (`utilisation_all` always counts all).
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct UtilisationParams {
+    /// Zones left to the detail of the support.
+    #[serde(default)]
+    pub exclude: Vec<ExcludeParams>,
+}
+
+/// One excluded zone.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ExcludeParams {
+    /// Around every corner of loop 0.
+    pub corners: bool,
+    /// Radius about the corner, in metres; a member with either end within it is left out.
+    pub radius_m: f64,
+}
+
+/// One support rule.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SupportParams {
+    /// `"boundary"`: all boundary nodes; `"corners"`: the corners of loop 0; `"all"`: every node. Or give `loop`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at: Option<SupportPlace>,
+    /// All nodes of this boundary loop, from 0.
+    #[serde(default, rename = "loop", skip_serializing_if = "Option::is_none")]
+    pub boundary_loop: Option<usize>,
+    /// What is fixed: of `ux`, `uy`, `uz`, `rx`, `ry`, `rz`.
+    pub fixed: Vec<Direction>,
+}
+
+/// Where a support is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SupportPlace {
+    /// All boundary nodes.
+    Boundary,
+    /// The corners of loop 0.
+    Corners,
+    /// Every node.
+    All,
+}
+
+/// A degree of freedom of a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Direction {
+    /// Displacement along x.
+    Ux,
+    /// Displacement along y.
+    Uy,
+    /// Displacement along z.
+    Uz,
+    /// Rotation about x.
+    Rx,
+    /// Rotation about y.
+    Ry,
+    /// Rotation about z.
+    Rz,
+}
+
+/// One load case.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum LoadParams {
+    /// Self weight of the members, as member loads.
+    Gravity {
+        /// Acceleration, in m/s².
+        #[serde(default = "defaults::gravity")]
+        g_m_s2: f64,
+    },
+    /// A load on the true area of the panels.
+    Area {
+        /// Downwards, in Pa.
+        down_pa: f64,
+    },
+    /// A load on the plan projection of the panels.
+    Projected {
+        /// Downwards, in Pa.
+        down_pa: f64,
+    },
+}
+
+/// One requirement; either `max` or `min`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RequirementParams {
+    /// What is limited.
+    pub quantity: Quantity,
+    /// The combination it is taken from.
+    pub combination: String,
+    /// Upper limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub max: Option<f64>,
+    /// Lower limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub min: Option<f64>,
+}
+
+/// What a requirement can limit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Quantity {
+    /// Largest resultant displacement of a node, m.
+    Deflection,
+    /// Largest vertical displacement of a node, m.
+    DeflectionVertical,
+    /// Elastic utilisation outside the excluded zones.
+    Utilisation,
+    /// Elastic utilisation of all members.
+    UtilisationAll,
+    /// Von Mises utilisation outside the excluded zones.
+    UtilisationVonMises,
+    /// First positive linear buckling factor.
+    BucklingFactor,
+}
+
+mod defaults {
+    use super::*;
+
+    pub fn order() -> u8 {
+        2
+    }
+
+    pub fn second_order_tolerance() -> f64 {
+        1e-6
+    }
+
+    pub fn gravity() -> f64 {
+        9.81
+    }
+
+    pub fn supports() -> Vec<SupportParams> {
+        let support = |at, fixed: &[Direction]| SupportParams {
+            at: Some(at),
+            boundary_loop: None,
+            fixed: fixed.to_vec(),
+        };
+        vec![
+            support(SupportPlace::Boundary, &[Direction::Uz]),
+            support(SupportPlace::Corners, &[Direction::Ux, Direction::Uy]),
+        ]
+    }
+
+    pub fn loads() -> BTreeMap<String, LoadParams> {
+        BTreeMap::from([
+            ("self_weight".into(), LoadParams::Gravity { g_m_s2: gravity() }),
+            ("glass".into(), LoadParams::Area { down_pa: 600.0 }),
+            ("snow".into(), LoadParams::Projected { down_pa: 500.0 }),
+        ])
+    }
+
+    pub fn combinations() -> BTreeMap<String, BTreeMap<String, f64>> {
+        let combination = |dead: f64, snow: f64| {
+            BTreeMap::from([("self_weight".into(), dead), ("glass".into(), dead), ("snow".into(), snow)])
+        };
+        BTreeMap::from([("sls".into(), combination(1.0, 1.0)), ("uls".into(), combination(1.35, 1.5))])
+    }
+
+    pub fn requirements() -> Vec<RequirementParams> {
+        let requirement = |quantity, combination: &str, max, min| RequirementParams {
+            quantity,
+            combination: combination.into(),
+            max,
+            min,
+        };
+        vec![
+            requirement(Quantity::Deflection, "sls", Some(0.140), None),
+            requirement(Quantity::Utilisation, "uls", Some(1.0), None),
+            requirement(Quantity::BucklingFactor, "uls", None, Some(4.0)),
+        ]
+    }
+}
