@@ -1,21 +1,53 @@
-//! The command line: one subcommand a file.
+//! The command line: one subcommand a file, each with `Args` and `run`.
+//!
+//! stdout is for results, stderr for progress and messages. Exit codes are those of [`CliError`] and [`exit`].
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "the binary is what talks to people")]
+
+mod check;
+mod completions;
+mod console;
+mod error;
+mod exit;
+mod init;
+
+pub use console::{Console, ConsoleArgs};
+pub use error::CliError;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
 /// Finds good topologies for structured surface structures: gridshells, shells, cable nets.
+///
+/// A design is a short string over a small grammar (tokens T, P, D, A, A*, Ao). The program evolves such strings:
+/// each is decoded to a coarse quad mesh, made a dense pattern on a surface, analysed as a frame, measured, and
+/// selected by NSGA-II. The result is a Pareto front of designs, as tables, meshes and pictures.
 #[derive(Parser)]
-#[command(version, about, max_term_width = 120)]
+#[command(version, about, long_about, max_term_width = 120, propagate_version = true, after_help = exit::HELP)]
 struct Cli {
+    #[command(flatten)]
+    console: ConsoleArgs,
     #[command(subcommand)]
     command: Command,
 }
 
 #[derive(Subcommand)]
-enum Command {}
+enum Command {
+    Check(check::Args),
+    Init(init::Args),
+    Completions(completions::Args),
+}
 
 /// Runs the program and gives its exit code.
 pub fn main() -> ExitCode {
-    match Cli::parse().command {}
+    let Cli { console, command } = Cli::parse();
+    let console = Console::new(&console);
+    let result = match command {
+        Command::Check(args) => check::run(args, &console),
+        Command::Init(args) => init::run(args, &console),
+        Command::Completions(args) => completions::run::<Cli>(args),
+    };
+    result.unwrap_or_else(|error| {
+        console.error(&error.to_string());
+        error.exit_code()
+    })
 }

@@ -1,1 +1,123 @@
-//! TOML → config (RUN "Config"): one file, every key with its unit and default, errors with line and cure.
+//! The config: one TOML file that composes the parameters of all stages.
+//!
+//! [`load`] reads it, checks keys, types and ranges against the schema derived from the types, then what several keys
+//! say together, and fills in defaults. Every refusal names file, line and key, what was found and what is allowed.
+
+mod error;
+mod names;
+mod path;
+mod resolved;
+mod rules;
+mod schema;
+mod source;
+
+pub use error::{ConfigError, Located, Place, Problem};
+pub use path::{KeyPath, Segment};
+pub use resolved::{MAY_CHANGE_ON_RESUME, differences, hash, to_toml};
+pub use schema::config_schema;
+
+use crate::domain::params::DomainParams;
+use crate::geometry::params::{PatternParams, TopologyParams};
+use crate::search::params::{ObjectivesParams, SearchParams};
+use crate::structure::params::StructureParams;
+use crate::surface::params::SurfaceParams;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use source::Source;
+use std::path::Path;
+
+/// The version of the config format that this program reads.
+pub const VERSION: u32 = 1;
+
+/// A whole config.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Config {
+    /// Version of the config format; 1.
+    #[serde(default = "version")]
+    #[schemars(extend("minimum" = 1, "maximum" = 1))]
+    pub version: u32,
+    /// Name, seed, threads.
+    #[serde(default)]
+    pub run: RunParams,
+    /// Boundary loops and symmetries.
+    pub domain: DomainParams,
+    /// What carries the pattern.
+    #[serde(default = "plane")]
+    pub surface: SurfaceParams,
+    /// Where strings start and by which rules they grow.
+    #[serde(default)]
+    pub topology: TopologyParams,
+    /// Density, relaxation and limits of the pattern.
+    #[serde(default)]
+    pub pattern: PatternParams,
+    /// The frame analysis; without this table there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub structure: Option<StructureParams>,
+    /// What is minimised.
+    #[serde(default)]
+    pub objectives: ObjectivesParams,
+    /// How strings are bred.
+    #[serde(default)]
+    pub search: SearchParams,
+}
+
+/// The `[run]` table: nothing here changes what a design is worth.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct RunParams {
+    /// Name of the run; results go to `results/<name>/`. Default: the name of the config file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Seed of all chance; drawn, printed and recorded if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("maximum" = 9_007_199_254_740_991u64))]
+    pub seed: Option<u64>,
+    /// Number of threads; 0 = all cores. Results do not depend on it.
+    #[schemars(extend("maximum" = 1024))]
+    pub threads: usize,
+}
+
+fn version() -> u32 {
+    VERSION
+}
+
+fn plane() -> SurfaceParams {
+    SurfaceParams::Plane { z_m: 0.0 }
+}
+
+/// Reads a config file with `key=value` arguments laid over it, checks it, and fills in what depends on other keys.
+///
+/// Paths inside stay relative to the folder of `file`. Shapes and units are those of the parameters of each stage.
+///
+/// # Errors
+/// [`ConfigError`]: the file cannot be read, is not TOML, or says something that is not allowed; then all problems
+/// found are listed.
+pub fn load(file: &Path, sets: &[String]) -> Result<Config, ConfigError> {
+    let stem = file.file_stem().map_or("run".into(), |stem| stem.to_string_lossy().into_owned());
+    resolve(&Source::read(file, sets)?, &stem, folder_of(file))
+}
+
+/// The folder to which the paths in a config file are relative.
+pub fn folder_of(file: &Path) -> &Path {
+    match file.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+fn resolve(source: &Source, stem: &str, folder: &Path) -> Result<Config, ConfigError> {
+    let problems = schema::check(source.values());
+    if !problems.is_empty() {
+        return Err(source.locate(problems));
+    }
+    let mut config: Config = serde_path_to_error::deserialize(source.values().clone()).map_err(|error| {
+        // The schema lets nothing through that serde refuses; should it, the key is still named.
+        let key = KeyPath::of(&error.path().to_string());
+        source.locate(vec![Problem::new(key, error.inner().message().to_owned())])
+    })?;
+    config.run.name.get_or_insert_with(|| stem.to_owned());
+    resolved::fill_in(&mut config);
+    let problems = rules::check(&config, folder);
+    if problems.is_empty() { Ok(config) } else { Err(source.locate(problems)) }
+}

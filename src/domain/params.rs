@@ -1,10 +1,11 @@
 //! The `[domain]` table of the config.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
 /// Boundary loops and symmetries of the domain.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DomainParams {
     /// Symmetries of boundary, surface, supports and loads that make two designs the same: `mirror-x`, `mirror-y`, `rotate-180`.
@@ -12,11 +13,12 @@ pub struct DomainParams {
     pub symmetries: Vec<Symmetry>,
     /// Boundary loops; the first is the outer one.
     #[serde(rename = "loop")]
+    #[schemars(extend("minItems" = 1))]
     pub loops: Vec<LoopParams>,
 }
 
 /// A symmetry of the domain.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Symmetry {
     /// x → −x about the middle of the domain.
@@ -29,32 +31,38 @@ pub enum Symmetry {
 }
 
 /// One boundary loop. Points are `[x, y]` or `[x, y, z]`, in metres.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum LoopParams {
     /// A closed polyline; the last point is joined to the first.
     Polyline {
         /// The points, in metres.
+        #[schemars(extend("minItems" = 3))]
         points_m: Vec<Vec<f64>>,
         /// Which points are corners.
         #[serde(default)]
         corners: Corners,
         /// With `corners = "auto"`: a point is a corner where the curve turns by more than this, in degrees.
         #[serde(default = "default_corner_angle")]
+        #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 180))]
         corner_angle_deg: f64,
     },
     /// A circle.
     Circle {
         /// The centre, in metres.
+        #[schemars(extend("minItems" = 2, "maxItems" = 3))]
         center_m: Vec<f64>,
         /// The radius, in metres.
+        #[schemars(extend("exclusiveMinimum" = 0))]
         radius_m: f64,
     },
     /// An ellipse.
     Ellipse {
         /// The centre, in metres.
+        #[schemars(extend("minItems" = 2, "maxItems" = 3))]
         center_m: Vec<f64>,
         /// The two semi-axes, in metres.
+        #[schemars(extend("exclusiveMinimum" = 0))]
         semi_axes_m: [f64; 2],
         /// Angle of the first axis from x, in degrees.
         #[serde(default)]
@@ -72,12 +80,13 @@ pub enum LoopParams {
         corners: Corners,
         /// With `corners = "auto"`: a point is a corner where the curve turns by more than this, in degrees.
         #[serde(default = "default_corner_angle")]
+        #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 180))]
         corner_angle_deg: f64,
     },
 }
 
 /// Which points of a polyline are corners: all, those found by angle, or a list of indices.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Corners {
     /// `"all"` or `"auto"`.
@@ -87,7 +96,7 @@ pub enum Corners {
 }
 
 /// The words that [`Corners`] knows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum CornerRule {
     /// Every point is a corner.

@@ -1,19 +1,23 @@
 //! The `[pattern]` table of the config.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How the canonical mesh becomes a dense pattern (GEOMETRY §2).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct PatternParams {
     /// Which rule sets the density of strips.
     pub density: Density,
     /// With `density = "panels"`: the number of panels every design comes as near as it can to.
+    #[schemars(extend("minimum" = 1))]
     pub panels: usize,
     /// With `density = "target_length"`: the edge length, in metres.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub target_length_m: Option<f64>,
     /// Designs with more panels are refused before any geometry.
+    #[schemars(extend("minimum" = 1))]
     pub max_faces: usize,
     /// How the dense pattern is relaxed.
     pub relax: RelaxParams,
@@ -35,7 +39,7 @@ impl Default for PatternParams {
 }
 
 /// The rule that sets the density of strips.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Density {
     /// As near as possible to a number of panels.
@@ -45,7 +49,7 @@ pub enum Density {
 }
 
 /// Relaxation of the dense pattern.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct RelaxParams {
     /// Weights of the smoothing.
@@ -53,6 +57,7 @@ pub struct RelaxParams {
     /// Number of Jacobi sweeps.
     pub sweeps: usize,
     /// Share of the way to the target that each sweep goes, in 0..1.
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 1))]
     pub damping: f64,
 }
 
@@ -63,7 +68,7 @@ impl Default for RelaxParams {
 }
 
 /// Weights of the smoothing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RelaxKind {
     /// Mean of the neighbours.
@@ -77,20 +82,25 @@ pub enum RelaxKind {
 }
 
 /// Limits of a pattern that can be built.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct LimitParams {
     /// Shortest member, in metres; default 2 × section width.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("minimum" = 0))]
     pub min_edge_m: Option<f64>,
     /// Longest member as a multiple of the target length.
+    #[schemars(extend("minimum" = 1))]
     pub max_edge_factor: f64,
     /// Smallest panel angle, in degrees.
+    #[schemars(extend("minimum" = 0, "exclusiveMaximum" = 90))]
     pub min_angle_deg: f64,
     /// Most members at a node.
+    #[schemars(extend("minimum" = 4))]
     pub max_valence: usize,
     /// Largest panel, in m²; no limit if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub max_panel_area_m2: Option<f64>,
 }
 
@@ -107,7 +117,7 @@ impl Default for LimitParams {
 }
 
 /// The `[topology]` table: where strings start and by which rules they grow.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct TopologyParams {
     /// `"skeleton"`, or `{ file = "…" }`, `{ grid = [m, n] }`, or `{ vertices = […], faces = […] }`.
@@ -133,7 +143,7 @@ impl Default for TopologyParams {
 }
 
 /// The initial coarse quad mesh.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum InitialMesh {
     /// The word `"skeleton"`.
@@ -146,6 +156,7 @@ pub enum InitialMesh {
     /// A rectangular grid of m × n faces, for a domain with four corners and no hole.
     Grid {
         /// m and n.
+        #[schemars(extend("minimum" = 1))]
         grid: [usize; 2],
     },
     /// Written out.
@@ -153,6 +164,7 @@ pub enum InitialMesh {
         /// Vertices `[x, y, z]`, in metres.
         vertices: Vec<[f64; 3]>,
         /// Faces, counter-clockwise.
+        #[schemars(extend("minItems" = 1))]
         faces: Vec<Vec<usize>>,
         /// For pseudo-quads, face → pole vertex.
         #[serde(default)]
@@ -161,7 +173,7 @@ pub enum InitialMesh {
 }
 
 /// The word `"skeleton"`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Skeleton {
     /// Decomposition along the medial axis.
@@ -169,7 +181,7 @@ pub enum Skeleton {
 }
 
 /// The set of rules (GRAMMAR §2).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RulesParam {
     /// The grammar as it stands.
@@ -179,7 +191,7 @@ pub enum RulesParam {
 }
 
 /// What to do with pinched vertices.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Pinched {
     /// Infeasible.

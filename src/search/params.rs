@@ -1,12 +1,14 @@
 //! The `[objectives]` and `[search]` tables of the config.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// What is minimised.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ObjectivesParams {
-    /// Names of the objectives.
+    /// Names of the objectives. Empty: the six of the paper, or, without `[structure]`, the three of fabrication.
+    #[serde(default)]
     pub minimise: Vec<String>,
     /// Ideal value of each, for normalising and hypervolume; empty = from the first feasible evaluations.
     #[serde(default)]
@@ -17,27 +19,32 @@ pub struct ObjectivesParams {
 }
 
 /// How strings are bred (RUN "The search").
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SearchParams {
     /// Population size μ.
+    #[schemars(extend("minimum" = 2))]
     pub population: usize,
     /// Number of generations.
     pub generations: u32,
     /// Stop after this many structural evaluations.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("minimum" = 1))]
     pub evaluations: Option<u64>,
     /// Stop after this many minutes.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub minutes: Option<f64>,
     /// Stop when the hypervolume has not grown for this many generations.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("minimum" = 1))]
     pub stall_generations: Option<u32>,
     /// Bounds of a string's length.
     pub tokens: TokenBounds,
     /// The first population.
     pub initial: InitialParams,
     /// Probability of crossover.
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub crossover: f64,
     /// Token-wise mutation, rates per token.
     pub mutation: MutationParams,
@@ -66,12 +73,13 @@ impl Default for SearchParams {
 }
 
 /// Bounds of a string's length, in tokens.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct TokenBounds {
     /// Fewest tokens of a bred string.
     pub min: usize,
     /// Most tokens.
+    #[schemars(extend("minimum" = 1))]
     pub max: usize,
 }
 
@@ -82,7 +90,7 @@ impl Default for TokenBounds {
 }
 
 /// The first population.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct InitialParams {
     /// How random strings are made.
@@ -98,7 +106,7 @@ impl Default for InitialParams {
 }
 
 /// How random strings are made.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Initialiser {
     /// All tokens equally likely.
@@ -110,14 +118,17 @@ pub enum Initialiser {
 }
 
 /// Token-wise mutation, rates per token.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MutationParams {
     /// Rate of insertion.
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub insert: f64,
     /// Rate of removal.
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub remove: f64,
     /// Rate of substitution.
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub substitute: f64,
 }
 
@@ -128,10 +139,11 @@ impl Default for MutationParams {
 }
 
 /// Which phenotypes count as the same, and what happens to them.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DuplicateParams {
     /// A child nearer than this topological distance to a known design is bred anew; 0 = rule off, at most 3.
+    #[schemars(extend("maximum" = 3))]
     pub min_distance: u32,
     /// What "the same" means.
     pub equivalence: EquivalenceParams,
@@ -146,7 +158,7 @@ impl Default for DuplicateParams {
 }
 
 /// Options of isomorphism (GRAMMAR §6).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct EquivalenceParams {
     /// Boundary loops and corners count.
@@ -164,12 +176,14 @@ impl Default for EquivalenceParams {
 }
 
 /// The bounded ε-grid archive.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ArchiveParams {
     /// Side of a grid box, as a share of each normalised objective.
+    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
     pub epsilon: f64,
     /// Most members.
+    #[schemars(extend("minimum" = 1))]
     pub max: usize,
 }
 

@@ -1,17 +1,20 @@
 //! The `[structure]` table of the config. Defaults are the paper's gridshell.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// How the pattern is built, supported, loaded and judged.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StructureParams {
     /// 1 = first order, 2 = second order.
     #[serde(default = "defaults::order")]
+    #[schemars(extend("minimum" = 1, "maximum" = 2))]
     pub order: u8,
     /// Relative change of the axial forces at which the second-order iteration of a search stops.
     #[serde(default = "defaults::second_order_tolerance")]
+    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
     pub second_order_tolerance: f64,
     /// The height of the section: fixed, or sized to the requirements.
     #[serde(default)]
@@ -33,6 +36,7 @@ pub struct StructureParams {
     pub utilisation: UtilisationParams,
     /// Supports; what several entries fix at a node is fixed together.
     #[serde(default = "defaults::supports", rename = "support")]
+    #[schemars(extend("minItems" = 1))]
     pub supports: Vec<SupportParams>,
     /// Named load cases.
     #[serde(default = "defaults::loads")]
@@ -46,21 +50,25 @@ pub struct StructureParams {
 }
 
 /// The section's height: fixed or sized.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged, deny_unknown_fields)]
 pub enum HeightParams {
     /// The same given height for all designs.
     Fixed {
         /// Height, in metres.
+        #[schemars(extend("exclusiveMinimum" = 0))]
         fixed_m: f64,
     },
     /// The least height that meets all requirements.
     Sized {
         /// Smallest height tried, in metres.
+        #[schemars(extend("exclusiveMinimum" = 0))]
         min_m: f64,
         /// Largest height tried, in metres.
+        #[schemars(extend("exclusiveMinimum" = 0))]
         max_m: f64,
         /// Step of the rounded height shown to people, in metres.
+        #[schemars(extend("exclusiveMinimum" = 0))]
         step_m: f64,
     },
 }
@@ -72,7 +80,7 @@ impl Default for HeightParams {
 }
 
 /// Into how many elements a member is split.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ElementsPerMember {
     /// This many.
@@ -82,7 +90,7 @@ pub enum ElementsPerMember {
 }
 
 /// The word `"auto"`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Auto {
     /// Chosen by the program.
@@ -96,18 +104,23 @@ impl Default for ElementsPerMember {
 }
 
 /// A linear-elastic material. Default: steel S355.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MaterialParams {
     /// Young's modulus E, in Pa.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub youngs_modulus_pa: f64,
     /// Poisson's ratio ν.
+    #[schemars(extend("exclusiveMinimum" = -1, "maximum" = 0.5))]
     pub poisson: f64,
     /// Density, in kg/m³.
+    #[schemars(extend("minimum" = 0))]
     pub density_kg_m3: f64,
     /// Yield strength fy, in Pa.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub yield_pa: f64,
     /// Partial factor γM0.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub gamma_m0: f64,
 }
 
@@ -118,14 +131,16 @@ impl Default for MaterialParams {
 }
 
 /// A section but for its height. All lengths in metres.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum SectionParams {
     /// A rectangular hollow section.
     Box {
         /// Width, in metres.
+        #[schemars(extend("exclusiveMinimum" = 0))]
         width_m: f64,
         /// Wall thickness, in metres.
+        #[schemars(extend("exclusiveMinimum" = 0))]
         thickness_m: f64,
     },
     /// A solid round bar; its diameter is the height.
@@ -133,6 +148,7 @@ pub enum SectionParams {
     /// A round tube; its outer diameter is the height.
     Tube {
         /// Wall thickness, in metres.
+        #[schemars(extend("exclusiveMinimum" = 0))]
         thickness_m: f64,
     },
 }
@@ -144,7 +160,7 @@ impl Default for SectionParams {
 }
 
 /// Which members count for `utilisation` (`utilisation_all` always counts all).
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct UtilisationParams {
     /// Zones left to the detail of the support.
@@ -153,17 +169,18 @@ pub struct UtilisationParams {
 }
 
 /// One excluded zone.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ExcludeParams {
     /// Around every corner of loop 0.
     pub corners: bool,
     /// Radius about the corner, in metres; a member with either end within it is left out.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub radius_m: f64,
 }
 
 /// One support rule.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SupportParams {
     /// `"boundary"`: all boundary nodes; `"corners"`: the corners of loop 0; `"all"`: every node. Or give `loop`.
@@ -173,11 +190,12 @@ pub struct SupportParams {
     #[serde(default, rename = "loop", skip_serializing_if = "Option::is_none")]
     pub boundary_loop: Option<usize>,
     /// What is fixed: of `ux`, `uy`, `uz`, `rx`, `ry`, `rz`.
+    #[schemars(extend("minItems" = 1))]
     pub fixed: Vec<Direction>,
 }
 
 /// Where a support is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SupportPlace {
     /// All boundary nodes.
@@ -189,7 +207,7 @@ pub enum SupportPlace {
 }
 
 /// A degree of freedom of a node.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Direction {
     /// Displacement along x.
@@ -207,13 +225,14 @@ pub enum Direction {
 }
 
 /// One load case.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum LoadParams {
     /// Self weight of the members, as member loads.
     Gravity {
         /// Acceleration, in m/s².
         #[serde(default = "defaults::gravity")]
+        #[schemars(extend("minimum" = 0))]
         g_m_s2: f64,
     },
     /// A load on the true area of the panels.
@@ -229,7 +248,7 @@ pub enum LoadParams {
 }
 
 /// One requirement; either `max` or `min`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RequirementParams {
     /// What is limited.
@@ -238,14 +257,16 @@ pub struct RequirementParams {
     pub combination: String,
     /// Upper limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub max: Option<f64>,
     /// Lower limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub min: Option<f64>,
 }
 
 /// What a requirement can limit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
     /// Largest resultant displacement of a node, m.

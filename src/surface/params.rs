@@ -1,11 +1,12 @@
 //! The `[surface]` table of the config.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// The surface that carries the pattern. All lengths in metres.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum SurfaceParams {
     /// The British Museum's Great Court roof (Williams 2001; GEOMETRY §4).
@@ -33,6 +34,7 @@ pub enum SurfaceParams {
         #[serde(default)]
         center_m: [f64; 2],
         /// The two half spans at which the height has fallen by `rise_m`, in metres.
+        #[schemars(extend("exclusiveMinimum" = 0))]
         half_spans_m: [f64; 2],
         /// Height of the top over the base, in metres.
         rise_m: f64,
@@ -46,6 +48,7 @@ pub enum SurfaceParams {
         #[serde(default)]
         center_m: [f64; 2],
         /// The two half spans, in metres.
+        #[schemars(extend("exclusiveMinimum" = 0))]
         half_spans_m: [f64; 2],
         /// Height at (a, b) over the base, in metres.
         rise_m: f64,
@@ -58,6 +61,7 @@ pub enum SurfaceParams {
         /// Centre, in metres.
         center_m: [f64; 3],
         /// Radius, in metres.
+        #[schemars(extend("exclusiveMinimum" = 0))]
         radius_m: f64,
     },
     /// The upper part of a horizontal cylinder.
@@ -68,6 +72,7 @@ pub enum SurfaceParams {
         #[serde(default)]
         axis_deg: f64,
         /// Radius, in metres.
+        #[schemars(extend("exclusiveMinimum" = 0))]
         radius_m: f64,
     },
     /// A triangle or quad mesh from an OBJ file; the closest point counts.

@@ -1,0 +1,24 @@
+//! `quadrille completions`: a completion script for a shell.
+
+use super::CliError;
+use clap::CommandFactory;
+use clap_complete::Shell;
+use std::io;
+use std::process::ExitCode;
+
+/// Print a completion script for a shell.
+///
+/// bash: `quadrille completions bash > ~/.local/share/bash-completion/completions/quadrille`;
+/// zsh: put it as `_quadrille` into a folder of `$fpath`; fish: `~/.config/fish/completions/quadrille.fish`.
+#[derive(clap::Args)]
+#[command(verbatim_doc_comment)]
+pub struct Args {
+    /// The shell.
+    shell: Shell,
+}
+
+/// Writes the script to stdout.
+pub fn run<C: CommandFactory>(args: Args) -> Result<ExitCode, CliError> {
+    clap_complete::generate(args.shell, &mut C::command(), "quadrille", &mut io::stdout());
+    Ok(ExitCode::SUCCESS)
+}

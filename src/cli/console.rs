@@ -1,0 +1,90 @@
+//! What goes to stderr, and how much of it.
+#![allow(dead_code, reason = "the first commands use few of these")]
+
+use clap::{ArgAction, Args, ValueEnum};
+use std::io::{self, IsTerminal, Write};
+
+/// Options that every subcommand has.
+#[derive(Args)]
+pub struct ConsoleArgs {
+    /// Say nothing on stderr but errors.
+    #[arg(long, short, global = true, conflicts_with = "verbose")]
+    quiet: bool,
+    /// Say more on stderr; twice: everything.
+    #[arg(short, long, global = true, action = ArgAction::Count)]
+    verbose: u8,
+    /// How progress is shown on stderr.
+    #[arg(long, global = true, value_enum, default_value_t, value_name = "HOW")]
+    progress: Progress,
+}
+
+/// How progress is shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Progress {
+    /// A bar where stderr is a terminal, else plain.
+    #[default]
+    Auto,
+    /// A bar that redraws itself.
+    Bar,
+    /// One line a generation.
+    Plain,
+    /// Nothing.
+    None,
+}
+
+/// Stderr, with the user's wishes resolved.
+#[derive(Clone, Copy, Debug)]
+pub struct Console {
+    verbosity: u8,
+    quiet: bool,
+    progress: Progress,
+}
+
+impl Console {
+    /// Resolves `auto` and `--quiet`.
+    pub fn new(args: &ConsoleArgs) -> Self {
+        let progress = match args.progress {
+            Progress::Auto if args.quiet => Progress::None,
+            Progress::Auto if io::stderr().is_terminal() => Progress::Bar,
+            Progress::Auto => Progress::Plain,
+            chosen => chosen,
+        };
+        Self { verbosity: args.verbose, quiet: args.quiet, progress }
+    }
+
+    /// A message, unless `--quiet`.
+    pub fn note(&self, message: &str) {
+        if !self.quiet {
+            line(message);
+        }
+    }
+
+    /// A message for `-v`.
+    pub fn detail(&self, message: &str) {
+        if self.verbosity > 0 {
+            line(message);
+        }
+    }
+
+    /// A warning, unless `--quiet`.
+    pub fn warn(&self, message: &str) {
+        self.note(&format!("warning: {message}"));
+    }
+
+    /// An error, always; one line for each thing that is wrong.
+    pub fn error(&self, message: &str) {
+        for part in message.lines() {
+            line(&format!("error: {part}"));
+        }
+    }
+
+    /// How progress is to be shown; never `Auto`.
+    pub fn progress(&self) -> Progress {
+        self.progress
+    }
+}
+
+/// One line on stderr. A reader that went away is no reason to fail.
+fn line(message: &str) {
+    let _ = writeln!(io::stderr().lock(), "{message}");
+}

@@ -1,0 +1,11 @@
+//! Exit codes, the same for every subcommand.
+
+/// The run failed.
+pub const FAILED: u8 = 1;
+/// Config, arguments or input files are wrong.
+pub const WRONG_INPUT: u8 = 2;
+
+/// What every help page says about them.
+pub const HELP: &str = "Exit codes: 0 done; 1 the run failed; 2 the config, arguments or input files are wrong; 3 finished, but no \
+feasible design was found; 130 / 143 interrupted (checkpoint written, resume command printed).\n\n\
+Results go to stdout, progress and messages to stderr.";

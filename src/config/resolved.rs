@@ -1,0 +1,76 @@
+//! A config with its defaults: written back, hashed, compared.
+
+use super::{Config, KeyPath, names};
+use crate::structure::params::{HeightParams, SectionParams, StructureParams};
+use sha2::{Digest, Sha256};
+use std::fmt::Write;
+use toml::Value;
+
+/// Keys in which a resumed run may differ from the one it goes on with: threads, and when to stop.
+pub const MAY_CHANGE_ON_RESUME: [&str; 5] =
+    ["run.threads", "search.generations", "search.evaluations", "search.minutes", "search.stall_generations"];
+
+/// Fills in defaults that depend on other keys.
+pub(super) fn fill_in(config: &mut Config) {
+    if let Some(structure) = &config.structure {
+        let width = section_width(structure);
+        config.pattern.limits.min_edge_m.get_or_insert(2.0 * width);
+    }
+    if config.objectives.minimise.is_empty() {
+        let names = if config.structure.is_some() {
+            names::WITH_STRUCTURE.as_slice()
+        } else {
+            names::WITHOUT_STRUCTURE.as_slice()
+        };
+        config.objectives.minimise = names.iter().map(|&name| name.to_owned()).collect();
+    }
+}
+
+/// Width of the section in plan, m: of a round one its largest height.
+fn section_width(structure: &StructureParams) -> f64 {
+    let height = match structure.height {
+        HeightParams::Fixed { fixed_m } => fixed_m,
+        HeightParams::Sized { max_m, .. } => max_m,
+    };
+    match structure.section {
+        SectionParams::Box { width_m, .. } => width_m,
+        SectionParams::Round {} | SectionParams::Tube { .. } => height,
+    }
+}
+
+/// The config as TOML, all defaults written out; [`load`](super::load) reads it as the same config.
+pub fn to_toml(config: &Config) -> String {
+    // Only types that TOML cannot hold could fail here, and a config that came from TOML has none.
+    toml::to_string(config).unwrap_or_default()
+}
+
+/// SHA-256 of [`to_toml`], in hex.
+pub fn hash(config: &Config) -> String {
+    let digest = Sha256::digest(to_toml(config).as_bytes());
+    digest.iter().fold(String::new(), |mut hex, byte| {
+        let _ = write!(hex, "{byte:02x}");
+        hex
+    })
+}
+
+/// The keys in which two configs differ, in the order of the file.
+pub fn differences(a: &Config, b: &Config) -> Vec<String> {
+    let mut keys = Vec::new();
+    if let (Ok(a), Ok(b)) = (Value::try_from(a), Value::try_from(b)) {
+        collect_differences(Some(&a), Some(&b), &KeyPath::default(), &mut keys);
+    }
+    keys
+}
+
+fn collect_differences(a: Option<&Value>, b: Option<&Value>, path: &KeyPath, keys: &mut Vec<String>) {
+    match (a, b) {
+        (a, b) if a == b => {}
+        (Some(Value::Table(a)), Some(Value::Table(b))) => {
+            let added = b.keys().filter(|key| !a.contains_key(*key));
+            for key in a.keys().chain(added) {
+                collect_differences(a.get(key), b.get(key), &path.key(key), keys);
+            }
+        }
+        _ => keys.push(path.to_string()),
+    }
+}

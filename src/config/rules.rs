@@ -1,0 +1,313 @@
+//! What several keys, or a key and the file system, say together.
+
+use super::error::Problem;
+use super::names;
+use super::path::KeyPath;
+use super::schema::suggestion;
+use super::{Config, VERSION};
+use crate::domain::params::{Corners, LoopParams};
+use crate::geometry::params::{Density, InitialMesh};
+use crate::structure::params::{
+    ElementsPerMember, HeightParams, Quantity, RequirementParams, SectionParams, StructureParams,
+    SupportParams,
+};
+use crate::surface::params::SurfaceParams;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// All that is wrong with a config of which each key alone is right. `folder` is where relative paths start.
+pub fn check(config: &Config, folder: &Path) -> Vec<Problem> {
+    let mut rules = Rules { folder, problems: Vec::new() };
+    rules.run(config);
+    rules.domain(config);
+    rules.surface(&config.surface);
+    rules.topology(&config.topology.initial);
+    rules.pattern(config);
+    if let Some(structure) = &config.structure {
+        rules.structure(structure, config.domain.loops.len());
+    }
+    rules.objectives(config);
+    rules.search(config);
+    rules.problems
+}
+
+struct Rules<'a> {
+    folder: &'a Path,
+    problems: Vec<Problem>,
+}
+
+impl Rules<'_> {
+    fn refuse(&mut self, key: impl Into<KeyPath>, message: impl Into<String>) {
+        self.problems.push(Problem::new(key.into(), message));
+    }
+
+    fn file_exists(&mut self, key: impl Into<KeyPath>, file: &Path) {
+        let full = self.folder.join(file);
+        if !full.is_file() {
+            let message = format!("found \"{}\", but there is no file {}", file.display(), full.display());
+            self.refuse(key, message);
+        }
+    }
+
+    fn run(&mut self, config: &Config) {
+        if config.version != VERSION {
+            self.refuse("version", format!("found {}; allowed: {VERSION}", config.version));
+        }
+        let name = config.run.name.as_deref().unwrap_or_default();
+        let plain = |c: char| c.is_alphanumeric() || "-_. ".contains(c);
+        if name.trim_matches(['.', ' ']).is_empty() || !name.chars().all(plain) {
+            let message =
+                format!("found \"{name}\"; allowed: letters, digits, -, _, . and spaces (it names a folder)");
+            self.refuse("run.name", message);
+        }
+    }
+
+    fn domain(&mut self, config: &Config) {
+        for (k, boundary_loop) in config.domain.loops.iter().enumerate() {
+            let key = KeyPath::of("domain.loop").index(k);
+            match boundary_loop {
+                LoopParams::Polyline { points_m, corners, .. } => {
+                    self.points(points_m, &key.key("points_m"));
+                    self.corners(corners, points_m.len(), &key.key("corners"));
+                }
+                LoopParams::Obj { file, .. } => self.file_exists(key.key("file"), file),
+                LoopParams::Circle { .. } | LoopParams::Ellipse { .. } => {}
+            }
+        }
+    }
+
+    fn points(&mut self, points: &[Vec<f64>], key: &KeyPath) {
+        for (i, point) in points.iter().enumerate() {
+            if !(2..=3).contains(&point.len()) {
+                let message = format!("found {} coordinates; allowed: [x, y] or [x, y, z]", point.len());
+                self.refuse(key.index(i), message);
+            }
+            let next = &points[(i + 1) % points.len()];
+            if point.get(..2) == next.get(..2) {
+                let message =
+                    format!("found the same point again right after ({point:?}); allowed: distinct points");
+                self.refuse(key.index(i), message);
+            }
+        }
+    }
+
+    fn corners(&mut self, corners: &Corners, count: usize, key: &KeyPath) {
+        let Corners::Indices(indices) = corners else { return };
+        for (i, &index) in indices.iter().enumerate() {
+            if index >= count {
+                self.refuse(
+                    key.index(i),
+                    format!("found {index}; allowed: 0 to {}", count.saturating_sub(1)),
+                );
+            }
+            if indices[..i].contains(&index) {
+                self.refuse(key.index(i), format!("found {index} a second time; allowed: each point once"));
+            }
+        }
+    }
+
+    fn surface(&mut self, surface: &SurfaceParams) {
+        if let SurfaceParams::Mesh { file } = surface {
+            self.file_exists("surface.file", file);
+        }
+    }
+
+    fn topology(&mut self, initial: &InitialMesh) {
+        match initial {
+            InitialMesh::File { file } => self.file_exists("topology.initial.file", file),
+            InitialMesh::Inline { vertices, faces, .. } => {
+                let key = KeyPath::of("topology.initial.faces");
+                for (f, face) in faces.iter().enumerate() {
+                    for (i, &vertex) in
+                        face.iter().enumerate().filter(|(_, vertex)| **vertex >= vertices.len())
+                    {
+                        let most = vertices.len().saturating_sub(1);
+                        let message = format!("found vertex {vertex}; allowed: 0 to {most}");
+                        self.refuse(key.index(f).index(i), message);
+                    }
+                }
+            }
+            InitialMesh::Word(_) | InitialMesh::Grid { .. } => {}
+        }
+    }
+
+    fn pattern(&mut self, config: &Config) {
+        let pattern = &config.pattern;
+        if pattern.density == Density::TargetLength && pattern.target_length_m.is_none() {
+            let message = "missing, but density = \"target_length\" needs it; allowed: a number > 0";
+            self.refuse("pattern.target_length_m", message);
+        }
+        if pattern.density == Density::Panels && pattern.panels > pattern.max_faces {
+            let message =
+                format!("found {}; allowed: at most max_faces, {}", pattern.panels, pattern.max_faces);
+            self.refuse("pattern.panels", message);
+        }
+    }
+
+    fn structure(&mut self, structure: &StructureParams, loops: usize) {
+        self.height(structure);
+        if structure.elements_per_member == ElementsPerMember::Number(0) {
+            self.refuse("structure.elements_per_member", "found 0; allowed: a whole number ≥ 1, or \"auto\"");
+        }
+        for (i, support) in structure.supports.iter().enumerate() {
+            self.support(support, loops, &KeyPath::of("structure.support").index(i));
+        }
+        let key = KeyPath::of("structure.combinations");
+        let cases: Vec<&str> = structure.loads.keys().map(String::as_str).collect();
+        for (name, combination) in &structure.combinations {
+            for case in combination.keys() {
+                self.known(&key.key(name).key(case), "load case", case, &cases);
+            }
+        }
+        for (i, requirement) in structure.requirements.iter().enumerate() {
+            let key = KeyPath::of("structure.requirement").index(i);
+            self.requirement(requirement, &structure.combinations, &key);
+        }
+    }
+
+    /// A name that must be one of those given elsewhere.
+    fn known(&mut self, key: &KeyPath, what: &str, name: &str, known: &[&str]) {
+        if !known.contains(&name) {
+            let hint = suggestion(name, known);
+            self.refuse(
+                key.clone(),
+                format!("found no {what} \"{name}\"{hint}; allowed: {}", known.join(", ")),
+            );
+        }
+    }
+
+    fn height(&mut self, structure: &StructureParams) {
+        let (least, key) = match structure.height {
+            HeightParams::Fixed { fixed_m } => (fixed_m, "structure.height.fixed_m"),
+            HeightParams::Sized { min_m, max_m, step_m } => {
+                if min_m >= max_m {
+                    let message = format!("found {min_m} with max_m = {max_m}; allowed: less than max_m");
+                    self.refuse("structure.height.min_m", message);
+                }
+                if step_m > max_m {
+                    let message = format!("found {step_m} with max_m = {max_m}; allowed: at most max_m");
+                    self.refuse("structure.height.step_m", message);
+                }
+                (min_m, "structure.height.min_m")
+            }
+        };
+        let (SectionParams::Box { thickness_m, .. } | SectionParams::Tube { thickness_m }) =
+            structure.section
+        else {
+            return;
+        };
+        let allowed = format!("allowed: more than twice the wall, {}", 2.0 * thickness_m);
+        if least <= 2.0 * thickness_m {
+            self.refuse(key, format!("found {least}; {allowed}"));
+        }
+        if let SectionParams::Box { width_m, .. } = structure.section
+            && width_m <= 2.0 * thickness_m
+        {
+            self.refuse("structure.section.width_m", format!("found {width_m}; {allowed}"));
+        }
+    }
+
+    fn support(&mut self, support: &SupportParams, loops: usize, key: &KeyPath) {
+        match (support.at, support.boundary_loop) {
+            (None, None) => {
+                let message =
+                    "missing; allowed: \"boundary\", \"corners\", \"all\", or loop = 0, 1, … instead";
+                self.refuse(key.key("at"), message);
+            }
+            (Some(_), Some(_)) => {
+                self.refuse(key.key("loop"), "found beside `at`; allowed: either `at` or `loop`")
+            }
+            (None, Some(k)) if k >= loops => {
+                let message = format!("found {k}; allowed: 0 to {}", loops.saturating_sub(1));
+                self.refuse(key.key("loop"), message);
+            }
+            _ => {}
+        }
+    }
+
+    fn requirement(
+        &mut self,
+        requirement: &RequirementParams,
+        combinations: &BTreeMap<String, BTreeMap<String, f64>>,
+        key: &KeyPath,
+    ) {
+        let known: Vec<&str> = combinations.keys().map(String::as_str).collect();
+        self.known(&key.key("combination"), "combination", &requirement.combination, &known);
+        let lower = requirement.quantity == Quantity::BucklingFactor;
+        let wanted = if lower { "min" } else { "max" };
+        match (requirement.max, requirement.min) {
+            (Some(_), None) if !lower => {}
+            (None, Some(_)) if lower => {}
+            (Some(_), Some(_)) => {
+                self.refuse(key.key("min"), "found beside `max`; allowed: one limit a requirement")
+            }
+            (Some(_), None) => {
+                self.refuse(key.key("max"), "found an upper limit of a buckling factor; allowed: `min`")
+            }
+            (None, Some(_)) => {
+                self.refuse(key.key("min"), "found a lower limit; allowed for this quantity: `max`")
+            }
+            (None, None) => self.refuse(key.key(wanted), "missing; allowed: a number > 0"),
+        }
+    }
+
+    fn objectives(&mut self, config: &Config) {
+        let objectives = &config.objectives;
+        let key = KeyPath::of("objectives.minimise");
+        let known = names::objectives();
+        for (i, name) in objectives.minimise.iter().enumerate() {
+            self.known(&key.index(i), "objective", name, &known);
+            if objectives.minimise[..i].contains(name) {
+                self.refuse(
+                    key.index(i),
+                    format!("found \"{name}\" a second time; allowed: each objective once"),
+                );
+            }
+            if config.structure.is_none() && names::needs_structure(name) {
+                let message =
+                    format!("found \"{name}\", which needs a frame analysis; allowed with [structure] only");
+                self.refuse(key.index(i), message);
+            }
+        }
+        let count = objectives.minimise.len();
+        for (name, values) in [("ideal", &objectives.ideal), ("reference", &objectives.reference)] {
+            if !values.is_empty() && values.len() != count {
+                let found = values.len();
+                let message =
+                    format!("found {found} numbers for {count} objectives; allowed: one for each, or []");
+                self.refuse(KeyPath::of("objectives").key(name), message);
+            }
+        }
+        if objectives.ideal.is_empty() != objectives.reference.is_empty() {
+            let message = "found only one of `ideal` and `reference`; allowed: both, or neither";
+            let key = if objectives.ideal.is_empty() { "objectives.reference" } else { "objectives.ideal" };
+            self.refuse(key, message);
+        }
+        for (i, (ideal, reference)) in objectives.ideal.iter().zip(&objectives.reference).enumerate() {
+            if ideal >= reference {
+                let message = format!("found {reference}; allowed: more than the ideal, {ideal}");
+                self.refuse(KeyPath::of("objectives.reference").index(i), message);
+            }
+        }
+    }
+
+    fn search(&mut self, config: &Config) {
+        let tokens = config.search.tokens;
+        if tokens.min > tokens.max {
+            let message = format!("found min = {} and max = {}; allowed: min ≤ max", tokens.min, tokens.max);
+            self.refuse("search.tokens", message);
+        }
+        let key = KeyPath::of("search.initial.seeds");
+        for (i, seed) in config.search.initial.seeds.iter().enumerate() {
+            match names::count_tokens(seed) {
+                Err(message) => self.refuse(key.index(i), message),
+                Ok(count) if count > tokens.max => {
+                    let message =
+                        format!("found {count} tokens; allowed: at most search.tokens.max, {}", tokens.max);
+                    self.refuse(key.index(i), message);
+                }
+                Ok(_) => {}
+            }
+        }
+    }
+}
