@@ -1,1 +1,23 @@
 //! NSGA-II (Deb et al. 2002). Knows nothing of meshes: numbers in, indices out.
+//!
+//! All functions take slices of [`Fitness`] or of objective vectors and return indices into them; none reorders
+//! the caller's data. Everything is minimised. Numbers are compared by `total_cmp`, and an objective that is not
+//! finite makes a design failed ([`Fitness::new`]), so NaN neither enters a front nor wins a tournament.
+
+mod archive;
+mod crowding;
+mod domination;
+mod hypervolume;
+mod nondominated;
+mod sampled;
+mod selection;
+mod sorting;
+
+pub use archive::EpsilonArchive;
+pub use crowding::crowding_distance;
+pub use domination::{Domination, FAILED, Fitness, Violation, compare, compare_objectives};
+pub use hypervolume::hypervolume;
+pub use nondominated::NonDominated;
+pub use sampled::{LOWER_CORNER, SAMPLES, SampledHypervolume};
+pub use selection::{Standing, standings, survive, tournament};
+pub use sorting::fronts;
