@@ -11,14 +11,15 @@ pub fn crowding_distance(front: &[&[f64]]) -> Vec<f64> {
     let objectives = front.first().map_or(0, |point| point.len());
     let mut order: Vec<usize> = (0..n).collect();
     for m in 0..objectives {
-        order.sort_by(|&a, &b| front[a][m].total_cmp(&front[b][m]).then(a.cmp(&b)));
+        let value = |i: usize| front[i][m];
+        order.sort_by(|&a, &b| value(a).total_cmp(&value(b)).then(a.cmp(&b)));
         let (first, last) = (order[0], order[n - 1]);
         distance[first] = f64::INFINITY;
         distance[last] = f64::INFINITY;
-        let range = front[last][m] - front[first][m];
+        let range = value(last) - value(first);
         if range > 0.0 {
             for triple in order.windows(3) {
-                distance[triple[1]] += (front[triple[2]][m] - front[triple[0]][m]) / range;
+                distance[triple[1]] += (value(triple[2]) - value(triple[0])) / range;
             }
         }
     }

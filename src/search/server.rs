@@ -1,0 +1,80 @@
+//! Who evaluates: one small interface, served by threads now and by a cluster later.
+
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::mpsc;
+
+use super::problem::{Evaluation, Problem};
+use crate::grammar::Tokens;
+
+/// Evaluates batches of strings.
+pub trait Server {
+    /// Evaluates `batch` and hands each result over with its index as soon as it is there, in any order, on the
+    /// caller's thread. Once `stop` returns true nothing new is begun, and what is in flight is still handed over.
+    /// Returns when nothing is in flight.
+    fn serve(
+        &self,
+        batch: &[Tokens],
+        stop: &(dyn Fn() -> bool + Sync),
+        done: &mut dyn FnMut(usize, Evaluation),
+    );
+}
+
+/// Evaluates on a pool of threads, one thread per design.
+pub struct ThreadServer<'a, P: Problem> {
+    problem: &'a P,
+    pool: rayon::ThreadPool,
+}
+
+impl<'a, P: Problem> ThreadServer<'a, P> {
+    /// A server with `threads` threads; 0 = one per core.
+    ///
+    /// # Errors
+    /// If the operating system does not give the threads.
+    pub fn new(problem: &'a P, threads: usize) -> Result<Self, rayon::ThreadPoolBuildError> {
+        Ok(Self { problem, pool: rayon::ThreadPoolBuilder::new().num_threads(threads).build()? })
+    }
+
+    /// The pool, for other work that is pure per item.
+    pub fn pool(&self) -> &rayon::ThreadPool {
+        &self.pool
+    }
+}
+
+impl<P: Problem> Server for ThreadServer<'_, P> {
+    fn serve(
+        &self,
+        batch: &[Tokens],
+        stop: &(dyn Fn() -> bool + Sync),
+        done: &mut dyn FnMut(usize, Evaluation),
+    ) {
+        let (sender, results) = mpsc::channel();
+        // `in_place_scope_fifo` keeps this thread outside the pool, free to take results while the pool works.
+        self.pool.in_place_scope_fifo(|scope| {
+            for (index, tokens) in batch.iter().enumerate() {
+                let sender = sender.clone();
+                scope.spawn_fifo(move |_| {
+                    if !stop() {
+                        // The receiver outlives the scope, so a send cannot fail.
+                        let _ = sender.send((index, evaluate(self.problem, tokens)));
+                    }
+                });
+            }
+            drop(sender);
+            for (index, evaluation) in results {
+                done(index, evaluation);
+            }
+        });
+    }
+}
+
+/// One evaluation, a panic turned into data.
+pub fn evaluate(problem: &impl Problem, tokens: &Tokens) -> Evaluation {
+    catch_unwind(AssertUnwindSafe(|| problem.evaluate(tokens)))
+        .unwrap_or_else(|panic| Evaluation::failed(format!("panic: {}", message(&*panic)), false))
+}
+
+fn message(panic: &(dyn Any + Send)) -> &str {
+    let text = panic.downcast_ref::<&str>().copied();
+    text.or_else(|| panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("without a message")
+}
