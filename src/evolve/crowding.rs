@@ -10,16 +10,16 @@ pub fn crowding_distance(front: &[&[f64]]) -> Vec<f64> {
     let mut distance = vec![0.0; n];
     let objectives = front.first().map_or(0, |point| point.len());
     let mut order: Vec<usize> = (0..n).collect();
-    for m in 0..objectives {
-        let value = |i: usize| front[i][m];
-        order.sort_by(|&a, &b| value(a).total_cmp(&value(b)).then(a.cmp(&b)));
+    let columns = (0..objectives).map(|m| front.iter().map(|point| point[m]).collect::<Vec<f64>>());
+    for value in columns {
+        order.sort_by(|&a, &b| value[a].total_cmp(&value[b]).then(a.cmp(&b)));
         let (first, last) = (order[0], order[n - 1]);
         distance[first] = f64::INFINITY;
         distance[last] = f64::INFINITY;
-        let range = value(last) - value(first);
+        let range = value[last] - value[first];
         if range > 0.0 {
             for triple in order.windows(3) {
-                distance[triple[1]] += (value(triple[2]) - value(triple[0])) / range;
+                distance[triple[1]] += (value[triple[2]] - value[triple[0]]) / range;
             }
         }
     }
