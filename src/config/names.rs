@@ -18,25 +18,3 @@ pub fn objectives() -> Vec<&'static str> {
 pub fn needs_structure(name: &str) -> bool {
     STRUCTURAL.contains(&name)
 }
-
-/// The number of tokens of a string (GRAMMAR §2), or what is wrong with it and where.
-pub fn count_tokens(text: &str) -> Result<usize, String> {
-    let mut count = 0;
-    let mut after_add = false;
-    for (position, character) in text.chars().enumerate() {
-        match character.to_ascii_uppercase() {
-            ' ' => continue,
-            '*' | '°' | 'O' if after_add => after_add = false,
-            letter @ ('T' | 'P' | 'D' | 'A') => {
-                count += 1;
-                after_add = letter == 'A';
-            }
-            _ => {
-                return Err(format!(
-                    "found '{character}' at position {position}; allowed: T, P, D, A, A*, A°"
-                ));
-            }
-        }
-    }
-    Ok(count)
-}

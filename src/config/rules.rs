@@ -7,6 +7,7 @@ use super::schema::suggestion;
 use super::{Config, VERSION};
 use crate::domain::params::{Corners, LoopParams};
 use crate::geometry::params::{Density, InitialMesh};
+use crate::grammar::Tokens;
 use crate::structure::params::{
     ElementsPerMember, HeightParams, Quantity, RequirementParams, SectionParams, StructureParams,
     SupportParams,
@@ -299,8 +300,8 @@ impl Rules<'_> {
         }
         let key = KeyPath::of("search.initial.seeds");
         for (i, seed) in config.search.initial.seeds.iter().enumerate() {
-            match names::count_tokens(seed) {
-                Err(message) => self.refuse(key.index(i), message),
+            match seed.parse::<Tokens>().map(|tokens| tokens.len()) {
+                Err(error) => self.refuse(key.index(i), format!("found \"{seed}\": {error}")),
                 Ok(count) if count > tokens.max => {
                     let message =
                         format!("found {count} tokens; allowed: at most search.tokens.max, {}", tokens.max);

@@ -153,6 +153,17 @@ impl Checker<'_> {
         self.problems.push(Problem::new(path.clone(), message));
     }
 
+    fn unknown_key(&self, name: &str, known: Option<&Map<String, Json>>, path: &KeyPath) -> String {
+        let keys: Vec<&str> = known.into_iter().flat_map(|known| known.keys().map(String::as_str)).collect();
+        let mut hint = suggestion(name, &keys);
+        if let (true, Some(home)) = (hint.is_empty(), home_of(name, self.root))
+            && !KeyPath::of(home).holds(path)
+        {
+            hint = format!("; `{name}` belongs in [{home}]");
+        }
+        format!("unknown key{hint}; allowed here: {}", keys.join(", "))
+    }
+
     fn value(&mut self, value: &Value, schema: &Json, path: &KeyPath) {
         let fitting: Vec<&Json> = alternatives(schema).into_iter().filter(|s| fits(value, s)).collect();
         match (value, fitting.as_slice()) {
@@ -243,7 +254,7 @@ impl Checker<'_> {
             match (known.and_then(|known| known.get(name)), other) {
                 (Some(schema), _) | (None, Some(schema)) => self.value(value, schema, &path),
                 (None, None) => {
-                    let message = unknown_key(name, known, self.root);
+                    let message = self.unknown_key(name, known, &path);
                     self.refuse(&path, message);
                 }
             }
@@ -253,6 +264,14 @@ impl Checker<'_> {
             self.refuse(&path.key(name), format!("missing; allowed: {allowed}"));
         }
     }
+}
+
+/// A top-level table that knows a key.
+fn home_of<'a>(name: &str, root: &'a Json) -> Option<&'a str> {
+    let home = properties(root)?.iter().find(|(_, schema)| {
+        alternatives(schema).into_iter().filter_map(properties).any(|keys| keys.contains_key(name))
+    });
+    home.map(|(table, _)| table.as_str())
 }
 
 /// Of several untagged tables, the one that shares most keys with the given one.
@@ -280,24 +299,6 @@ fn fits(value: &Value, schema: &Json) -> bool {
         Value::Table(_) => is_type(schema, "object"),
         Value::Datetime(_) => false,
     }
-}
-
-fn unknown_key(name: &str, known: Option<&Map<String, Json>>, root: &Json) -> String {
-    let keys: Vec<&str> = known.into_iter().flat_map(|known| known.keys().map(String::as_str)).collect();
-    let near = suggestion(name, &keys);
-    let elsewhere = match near.is_empty() {
-        true => home_of(name, root).map_or(String::new(), |home| format!("; `{name}` belongs in {home}")),
-        false => String::new(),
-    };
-    format!("unknown key{near}{elsewhere}; allowed here: {}", keys.join(", "))
-}
-
-/// A top-level table that knows a key.
-fn home_of(name: &str, root: &Json) -> Option<String> {
-    let home = properties(root)?.iter().find(|(_, schema)| {
-        alternatives(schema).into_iter().filter_map(properties).any(|keys| keys.contains_key(name))
-    });
-    home.map(|(table, _)| format!("[{table}]"))
 }
 
 fn quoted(words: &[&str]) -> String {

@@ -1,0 +1,43 @@
+//! Help, starter config, completions.
+
+use assert_cmd::Command;
+
+fn quadrille() -> Command {
+    Command::cargo_bin("quadrille").unwrap()
+}
+
+fn stdout_of(arguments: &[&str]) -> String {
+    let output = quadrille().args(arguments).output().unwrap();
+    assert!(output.status.success(), "{arguments:?}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+#[test]
+fn help_lists_commands_and_exit_codes() {
+    let help = stdout_of(&["--help"]);
+    for part in ["check", "init", "completions", "--quiet", "--progress", "Exit codes: 0 done", "no feasible"]
+    {
+        assert!(help.contains(part), "{part} not in {help}");
+    }
+}
+
+#[test]
+fn a_wrong_argument_exits_2() {
+    quadrille().arg("--no-such-flag").assert().code(2);
+    quadrille().assert().code(2);
+}
+
+#[test]
+fn init_writes_a_config_that_checks_and_never_overwrites() {
+    let folder = tempfile::tempdir().unwrap();
+    quadrille().current_dir(&folder).args(["init", "roof"]).assert().success().stdout("roof.toml\n");
+    quadrille().current_dir(&folder).args(["check", "roof.toml"]).assert().success();
+    quadrille().current_dir(&folder).args(["init", "roof"]).assert().code(2);
+}
+
+#[test]
+fn completions_for_every_shell() {
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        assert!(stdout_of(&["completions", shell]).contains("quadrille"), "{shell}");
+    }
+}
