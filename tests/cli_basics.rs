@@ -1,4 +1,5 @@
 //! Help, starter config, completions.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use assert_cmd::Command;
 

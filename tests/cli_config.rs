@@ -1,4 +1,5 @@
 //! A wrong config ends with exit code 2 and says where and what (RUN "Commands").
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use assert_cmd::Command;
 use std::path::Path;

@@ -1,4 +1,5 @@
 //! The shipped configs load, and `great_court.toml` is the one that the documentation shows.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use quadrille::config::{self, Config};
 use std::path::Path;

@@ -16,7 +16,7 @@ pub fn square_with_pole() -> Pattern {
         edges: vec![[0, 1], [0, 3], [1, 2], [1, 4], [2, 4], [3, 4]],
         loops: vec![vec![0, 1, 2, 4, 3]],
         corners: vec![0, 3],
-        loop_corners: vec![0..2],
+        loop_corners: std::iter::once(0..2).collect(),
         coarse: vec![0, 1, 2, 3, 4],
         coarse_face: vec![0, 1],
         target_length: 1.0,
