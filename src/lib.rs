@@ -15,6 +15,7 @@ pub mod domain;
 pub mod evolve;
 pub mod geometry;
 pub mod grammar;
+pub mod io;
 pub mod mesh;
 pub mod objectives;
 pub mod output;

@@ -1,5 +1,111 @@
-//! The domain: boundary loops and their corners (GEOMETRY §1).
+//! The domain: boundary loops and their corners, on the surface (GEOMETRY §1).
 
+mod boundary;
+mod check;
+mod curve;
+mod error;
 pub mod params;
+mod read;
 
-pub use params::{Corners, DomainParams, LoopParams};
+pub use boundary::BoundaryLoop;
+pub use error::DomainError;
+pub use params::{Corners, DomainParams, LoopParams, Symmetry};
+
+use crate::surface::Surface;
+use std::path::Path;
+use std::sync::Arc;
+
+/// A region of the plan with its boundary on the surface.
+#[derive(Clone)]
+pub struct Domain {
+    /// The boundary loops, all counter-clockwise in plan; loop 0 is the outer one, the others are holes.
+    pub loops: Vec<BoundaryLoop>,
+}
+
+impl Domain {
+    /// Makes the domain of a config on its surface and checks both against each other; files are relative to `base_dir`.
+    ///
+    /// A loop given clockwise is turned round, its first point stays the first. Where the surface is not free, the boundary is the
+    /// plan curve lifted onto it and a given z does not count.
+    ///
+    /// # Errors
+    /// See [`DomainError`]; loops and points at fault are named.
+    pub fn resolve(
+        params: &DomainParams,
+        surface: &Arc<dyn Surface>,
+        base_dir: &Path,
+    ) -> Result<Self, DomainError> {
+        if params.loops.is_empty() {
+            return Err(DomainError::NoLoop);
+        }
+        let read = params
+            .loops
+            .iter()
+            .enumerate()
+            .map(|(i, given)| read::curve(i, given, base_dir))
+            .collect::<Result<Vec<_>, _>>()?;
+        let curves: Vec<_> = read.iter().map(|(curve, _)| curve.clone()).collect();
+        check::curves(&curves)?;
+        check::covered(&curves, surface.as_ref())?;
+        let loops =
+            read.into_iter().map(|(curve, corners)| BoundaryLoop::new(curve, surface, corners)).collect();
+        Ok(Self { loops })
+    }
+
+    /// Corners of all loops together.
+    pub fn corner_count(&self) -> usize {
+        self.loops.iter().map(|l| l.corners().len()).sum()
+    }
+
+    /// Corner numbers of one loop: corners count loop by loop, counter-clockwise along each.
+    pub fn loop_corners(&self, loop_number: usize) -> std::ops::Range<usize> {
+        let start = self.loops[..loop_number].iter().map(|l| l.corners().len()).sum();
+        start..start + self.loops[loop_number].corners().len()
+    }
+
+    /// Position of a corner: its loop and arc length.
+    pub fn corner(&self, corner: usize) -> Option<(usize, f64)> {
+        (0..self.loops.len()).find_map(|i| {
+            let range = self.loop_corners(i);
+            range.contains(&corner).then(|| (i, self.loops[i].corners()[corner - range.start]))
+        })
+    }
+
+    /// Where no loop has a corner: arc length on loop 0 of the mark that fixes the turn of a pattern, the point of
+    /// largest x (GEOMETRY §0.4). It is not sharp.
+    pub fn mark(&self) -> Option<f64> {
+        let outer = &self.loops[0];
+        (self.corner_count() == 0).then(|| outer.arc_length(outer.curve.rightmost()))
+    }
+
+    /// Diagonal of the bounding box in plan, m.
+    pub fn size(&self) -> f64 {
+        let [low, high] = self.bounds();
+        (high[0] - low[0]).hypot(high[1] - low[1])
+    }
+
+    /// Smallest and largest x and y, m.
+    pub fn bounds(&self) -> [[f64; 2]; 2] {
+        self.loops[0].curve.bounds()
+    }
+
+    /// Plan area without the holes, m².
+    pub fn area(&self) -> f64 {
+        self.loops[0].area() - self.loops[1..].iter().map(BoundaryLoop::area).sum::<f64>()
+    }
+
+    /// Whether (x, y) lies in the domain or within 1e-9 of its size from the boundary.
+    pub fn contains(&self, point: [f64; 2]) -> bool {
+        self.contains_within(point, 1e-9 * self.size())
+    }
+
+    /// Whether (x, y) lies in the domain or within `tolerance` metres of its boundary.
+    pub fn contains_within(&self, point: [f64; 2], tolerance: f64) -> bool {
+        let near = |l: &BoundaryLoop| {
+            let q = l.curve.point(l.curve.closest([point[0], point[1], 0.0], true));
+            (q[0] - point[0]).hypot(q[1] - point[1]) <= tolerance
+        };
+        let (outer, holes) = (&self.loops[0], &self.loops[1..]);
+        (outer.surrounds(point) || near(outer)) && holes.iter().all(|h| !h.surrounds(point) || near(h))
+    }
+}

@@ -1,14 +1,94 @@
-//! What vertices are held on (GEOMETRY §1).
+//! What vertices are held on (GEOMETRY §1): one surface a file, [`build`] makes them from the config.
 
+mod cylinder;
+mod dual;
+mod error;
+
+mod free;
+mod great_court;
+mod height;
+mod hypar;
+
+mod paraboloid;
 pub mod params;
+mod plane;
+mod sphere;
+
+pub use error::SurfaceError;
+pub use great_court::GreatCourt;
+pub use height::{HeightFunction, HeightSurface};
 
 pub use params::SurfaceParams;
 
-/// A surface: positions and normals. Implementors are one file each and one line in [`params`].
+use std::path::Path;
+use std::sync::Arc;
+
+/// How a surface takes a point back (GEOMETRY §1).
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum SurfaceKind {
+    /// z = f(x, y): vertically, x and y are kept.
+    Height,
+    /// To the closest point.
+    Closest,
+    /// Not at all: the relaxation finds the form.
+    Free,
+}
+
+/// A surface: positions and normals, in metres, z up.
 pub trait Surface: Send + Sync {
-    /// Brings a point back onto the surface: vertically for a height surface (x, y kept), the closest point elsewhere.
+    /// How it takes points back.
+    fn kind(&self) -> SurfaceKind;
+
+    /// Height over (x, y), the upper one where there are several; `None` where the surface does not reach or is not finite,
+    /// and for a free surface everywhere.
+    fn height(&self, x: f64, y: f64) -> Option<f64>;
+
+    /// Brings a point back onto the surface: vertically for a height surface (x, y kept), the closest point elsewhere, not at
+    /// all on a free surface. Points a little outside are answered as if the rim went on.
     fn project(&self, point: [f64; 3]) -> [f64; 3];
 
-    /// Unit normal at a point of the surface, upwards where that means something.
+    /// Unit normal at a point of the surface, upwards where that means something; (0, 0, 1) on a free surface.
     fn normal(&self, point: [f64; 3]) -> [f64; 3];
+
+    /// In words, where the surface exists: for the message that it does not cover the domain.
+    fn extent(&self) -> String;
+
+    /// Whether its normal varies smoothly; not so on facets.
+    fn is_smooth(&self) -> bool {
+        true
+    }
+
+    /// [`Surface::project`] of many points: one virtual call for all of them.
+    fn project_all(&self, points: &mut [[f64; 3]]) {
+        for point in points {
+            *point = self.project(*point);
+        }
+    }
+}
+
+/// Makes the surface of a config; files are relative to `base_dir`.
+///
+/// # Errors
+/// A length that is not positive and finite, a faulty expression (with its position), a file that cannot be read.
+pub fn build(params: &SurfaceParams, base_dir: &Path) -> Result<Arc<dyn Surface>, SurfaceError> {
+    Ok(match params {
+        SurfaceParams::GreatCourt {} => Arc::new(HeightSurface(GreatCourt)),
+        SurfaceParams::Plane { z_m } => Arc::new(HeightSurface(plane::Plane::new(*z_m)?)),
+        SurfaceParams::Height { .. } => return Err(SurfaceError::Missing { kind: "height" }),
+        SurfaceParams::Paraboloid { center_m, half_spans_m, rise_m, base_m } => {
+            Arc::new(HeightSurface(paraboloid::Paraboloid::new(*center_m, *half_spans_m, *rise_m, *base_m)?))
+        }
+        SurfaceParams::Hypar { center_m, half_spans_m, rise_m, base_m } => {
+            Arc::new(HeightSurface(hypar::Hypar::new(*center_m, *half_spans_m, *rise_m, *base_m)?))
+        }
+        SurfaceParams::Sphere { center_m, radius_m } => Arc::new(sphere::Sphere::new(*center_m, *radius_m)?),
+        SurfaceParams::Cylinder { center_m, axis_deg, radius_m } => {
+            Arc::new(cylinder::Cylinder::new(*center_m, *axis_deg, *radius_m)?)
+        }
+        SurfaceParams::Mesh { file } => {
+            let _ = base_dir.join(file);
+            return Err(SurfaceError::Missing { kind: "mesh" });
+        }
+        SurfaceParams::Free {} => Arc::new(free::Free),
+    })
 }

@@ -1,0 +1,241 @@
+//! A boundary loop by arc length on the surface.
+
+use super::curve::Curve;
+use crate::surface::{Surface, SurfaceKind};
+use std::sync::Arc;
+
+/// One boundary loop, counter-clockwise in plan whether it is the outer one or a hole. Its points lie on the surface: the plan
+/// curve lifted, or as given in space where the surface is free.
+#[derive(Clone)]
+pub struct BoundaryLoop {
+    pub(super) curve: Curve,
+    /// `None` on a free surface.
+    pub(super) surface: Option<Arc<dyn Surface>>,
+    /// Curve parameters of the corners, ascending.
+    pub(super) corner_parameters: Vec<f64>,
+    corners: Vec<f64>,
+    cells: Vec<Cell>,
+    length: f64,
+}
+
+/// A stretch of the curve between two parameters, with the arc length there as a cubic in the parameter.
+#[derive(Clone, Debug)]
+struct Cell {
+    /// Parameter and arc length at the start.
+    t: f64,
+    s: f64,
+    /// Width in the parameter and length.
+    width: f64,
+    length: f64,
+    /// Lengths per width at both ends, relative to the mean: 1, 1 where the speed is even.
+    speeds: [f64; 2],
+}
+
+impl Cell {
+    /// Share of the cell's length at a share of its width: the cubic Hermite polynomial with the two end speeds.
+    fn length_share(&self, u: f64) -> f64 {
+        let [a, b] = self.speeds;
+        u * (a + u * ((3.0 - 2.0 * a - b) + u * (a + b - 2.0)))
+    }
+
+    /// The inverse of [`Cell::length_share`], which is monotone: safeguarded Newton.
+    fn width_share(&self, share: f64) -> f64 {
+        let [a, b] = self.speeds;
+        if a == 1.0 && b == 1.0 {
+            return share;
+        }
+        let (mut low, mut high, mut u) = (0.0, 1.0, share);
+        for _ in 0..60 {
+            let error = self.length_share(u) - share;
+            if error > 0.0 {
+                high = u;
+            } else {
+                low = u;
+            }
+            let slope = a + u * (2.0 * (3.0 - 2.0 * a - b) + u * 3.0 * (a + b - 2.0));
+            let next = u - error / slope;
+            let next = if next > low && next < high { next } else { 0.5 * (low + high) };
+            if (next - u).abs() <= 1e-16 {
+                break;
+            }
+            u = next;
+        }
+        u
+    }
+}
+
+/// Cells of a loop where its speed is not even.
+const CELLS: usize = 1024;
+
+impl BoundaryLoop {
+    pub(super) fn new(curve: Curve, surface: &Arc<dyn Surface>, mut corner_parameters: Vec<f64>) -> Self {
+        corner_parameters.sort_by(f64::total_cmp);
+        let surface = (surface.kind() != SurfaceKind::Free).then(|| Arc::clone(surface));
+        let mut boundary =
+            Self { curve, surface, corner_parameters, corners: Vec::new(), cells: Vec::new(), length: 0.0 };
+        boundary.measure();
+        boundary.corners = boundary.corner_parameters.iter().map(|&t| boundary.arc_length(t)).collect();
+        boundary
+    }
+
+    /// Fills the cells and the length.
+    fn measure(&mut self) {
+        let breaks = self.curve.breaks();
+        let per_piece = (CELLS / (breaks.len() - 1)).max(16);
+        for piece in breaks.windows(2) {
+            // One step inside the piece, so that a kink's two speeds are not mixed.
+            let speeds: Vec<f64> =
+                (0..=16).map(|i| self.speed(piece[0] + (piece[1] - piece[0]) * inner_share(i))).collect();
+            let even = speeds.iter().all(|v| (v - speeds[0]).abs() <= 1e-12 * speeds[0]);
+            let count = if even { 1 } else { per_piece };
+            for i in 0..count {
+                let share = |i: usize| piece[0] + (piece[1] - piece[0]) * (i as f64 / count as f64);
+                self.push_cell(share(i), share(i + 1), even);
+            }
+        }
+    }
+
+    fn push_cell(&mut self, start: f64, end: f64, even: bool) {
+        let width = end - start;
+        let smooth = self.surface.as_ref().is_none_or(|s| s.is_smooth());
+        let (length, speeds) = if even && smooth {
+            (self.speed(start + 0.5 * width) * width, [1.0; 2])
+        } else if smooth {
+            let mean: f64 = GAUSS.iter().map(|(u, w)| w * self.speed(start + u * width)).sum();
+            let at = |u: f64| (self.speed(start + u * width) / mean).clamp(0.0, 3.0);
+            (mean * width, [at(1e-9), at(1.0 - 1e-9)])
+        } else {
+            (self.chords(start, width), [1.0; 2])
+        };
+        self.cells.push(Cell { t: start, s: self.length, width, length, speeds });
+        self.length += length;
+    }
+
+    /// Length of eight chords: for surfaces with facets.
+    fn chords(&self, start: f64, width: f64) -> f64 {
+        let points: Vec<_> = (0..=8).map(|i| self.at(start + width * f64::from(i) / 8.0)).collect();
+        points.windows(2).map(|w| distance(w[0], w[1])).sum()
+    }
+
+    /// |d point / dt| on the surface.
+    fn speed(&self, t: f64) -> f64 {
+        let d = self.derivative(t);
+        (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt()
+    }
+
+    /// d point / dt on the surface.
+    fn derivative(&self, t: f64) -> [f64; 3] {
+        let d = self.curve.derivative(t);
+        let Some(surface) = &self.surface else { return d };
+        let n = surface.normal(self.at(t));
+        // On a vertical tangent plane a horizontal curve stays horizontal.
+        let rise = if n[2].abs() > 1e-6 { -(n[0] * d[0] + n[1] * d[1]) / n[2] } else { 0.0 };
+        [d[0], d[1], rise]
+    }
+
+    /// Point at a curve parameter, on the surface.
+    pub(super) fn at(&self, t: f64) -> [f64; 3] {
+        let [x, y, z] = self.curve.point(t);
+        match &self.surface {
+            None => [x, y, z],
+            Some(surface) => [x, y, surface.height(x, y).unwrap_or_else(|| surface.project([x, y, z])[2])],
+        }
+    }
+
+    /// Arc length from the start to a curve parameter in `0..=period`.
+    pub(super) fn arc_length(&self, t: f64) -> f64 {
+        let i = self.cells.partition_point(|c| c.t <= t).saturating_sub(1);
+        let cell = &self.cells[i];
+        cell.s + cell.length * cell.length_share(((t - cell.t) / cell.width).clamp(0.0, 1.0))
+    }
+
+    /// Curve parameter at an arc length, modulo the length.
+    pub(super) fn parameter(&self, s: f64) -> f64 {
+        let s = s.rem_euclid(self.length);
+        // A point at a corner is the corner, to the last bit.
+        if let Ok(i) = self.corners.binary_search_by(|c| c.total_cmp(&s)) {
+            return self.corner_parameters[i];
+        }
+        let i = self.cells.partition_point(|c| c.s <= s).saturating_sub(1);
+        let cell = &self.cells[i];
+        cell.t + cell.width * cell.width_share(((s - cell.s) / cell.length).clamp(0.0, 1.0))
+    }
+
+    /// Length of the curve on the surface, m.
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// Point at arc length `s` counter-clockwise from the start, modulo the length, m. At a corner's arc length it is the
+    /// corner exactly.
+    pub fn point(&self, s: f64) -> [f64; 3] {
+        self.at(self.parameter(s))
+    }
+
+    /// Unit tangent in space at arc length `s`, counter-clockwise; at a kink that of the stretch after it.
+    pub fn tangent(&self, s: f64) -> [f64; 3] {
+        let d = self.derivative(self.parameter(s));
+        let length = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
+        d.map(|v| v / length)
+    }
+
+    /// Arc lengths of the corners, ascending, in `0..length`.
+    pub fn corners(&self) -> &[f64] {
+        &self.corners
+    }
+
+    /// Arc length of the point of the curve that is closest in plan, or in space where the surface is free.
+    pub fn closest(&self, point: [f64; 3]) -> f64 {
+        self.arc_length(self.curve.closest(point, self.surface.is_some()))
+    }
+
+    /// The point of the curve that is closest in plan, or in space where the surface is free.
+    pub fn closest_point(&self, point: [f64; 3]) -> [f64; 3] {
+        self.at(self.curve.closest(point, self.surface.is_some()))
+    }
+
+    /// Whether the stretch from arc length `from` counter-clockwise to `to` is one straight line in plan.
+    pub fn is_straight(&self, from: f64, to: f64) -> bool {
+        let Curve::Polyline { points } = &self.curve else { return false };
+        let start = self.parameter(from);
+        let mut end = self.parameter(to);
+        if end <= start {
+            end += self.curve.period();
+        }
+        let a = self.curve.point(start);
+        let b = self.curve.point(end);
+        let chord = (b[0] - a[0]).hypot(b[1] - a[1]);
+        (start.floor() as usize + 1..end.ceil() as usize).all(|i| {
+            let p = points[i % points.len()];
+            let area = (b[0] - a[0]) * (p[1] - a[1]) - (p[0] - a[0]) * (b[1] - a[1]);
+            area.abs() <= 1e-9 * chord * chord
+        }) && chord > 0.0
+    }
+
+    /// Enclosed plan area, m².
+    pub fn area(&self) -> f64 {
+        self.curve.area()
+    }
+
+    /// Whether the loop runs around (x, y) in plan; on the curve either answer may come.
+    pub fn surrounds(&self, point: [f64; 2]) -> bool {
+        self.curve.surrounds(point)
+    }
+}
+
+/// Shares 0..1 of 17 probes, the ends drawn in a little.
+fn inner_share(i: i32) -> f64 {
+    1e-9 + (1.0 - 2e-9) * f64::from(i) / 16.0
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum::<f64>().sqrt()
+}
+
+/// Gauss–Legendre on 0..1 with four points: position and weight.
+const GAUSS: [(f64, f64); 4] = [
+    (0.069_431_844_202_973_71, 0.173_927_422_568_726_9),
+    (0.330_009_478_207_571_9, 0.326_072_577_431_273_1),
+    (0.669_990_521_792_428_1, 0.326_072_577_431_273_1),
+    (0.930_568_155_797_026_3, 0.173_927_422_568_726_9),
+];

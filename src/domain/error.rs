@@ -1,0 +1,185 @@
+//! What can be wrong with a domain. Loops and points are numbered from 0, as in the config.
+
+use crate::io::ReadError;
+
+/// Why a domain is refused.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+pub enum DomainError {
+    /// No loop at all.
+    #[error("domain: no loop; the first [[domain.loop]] is the outer boundary")]
+    NoLoop,
+    /// A point is not `[x, y]` or `[x, y, z]`.
+    #[error("domain.loop {loop_number}: {what} has {found} coordinates, allowed are [x, y] and [x, y, z]")]
+    Coordinates {
+        /// The loop.
+        loop_number: usize,
+        /// Which point.
+        what: String,
+        /// How many numbers it has.
+        found: usize,
+    },
+    /// A number that is not finite.
+    #[error("domain.loop {loop_number}: {what} is {value}, which is not finite")]
+    NotFinite {
+        /// The loop.
+        loop_number: usize,
+        /// Which number.
+        what: String,
+        /// Its value.
+        value: f64,
+    },
+    /// A length that must be positive.
+    #[error("domain.loop {loop_number}: {key} must be positive, found {value}")]
+    NotPositive {
+        /// The loop.
+        loop_number: usize,
+        /// The key.
+        key: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// Fewer than three points.
+    #[error("domain.loop {loop_number}: a polyline needs at least 3 points, found {found}")]
+    TooFewPoints {
+        /// The loop.
+        loop_number: usize,
+        /// How many there are.
+        found: usize,
+    },
+    /// Two consecutive points coincide in plan.
+    #[error(
+        "domain.loop {loop_number}: points {first} and {second} coincide in plan at ({x}, {y}); \
+             the last point is joined to the first by itself"
+    )]
+    ZeroEdge {
+        /// The loop.
+        loop_number: usize,
+        /// The first point.
+        first: usize,
+        /// The second point.
+        second: usize,
+        /// Where.
+        x: f64,
+        /// Where.
+        y: f64,
+    },
+    /// Two edges of one polyline cross or touch.
+    #[error("domain.loop {loop_number}: the boundary crosses or touches itself: edge {}–{} meets edge {}–{} near ({x:.6}, {y:.6})",
+            first[0], first[1], second[0], second[1])]
+    SelfCrossing {
+        /// The loop.
+        loop_number: usize,
+        /// The points of one edge.
+        first: [usize; 2],
+        /// The points of the other.
+        second: [usize; 2],
+        /// Where.
+        x: f64,
+        /// Where.
+        y: f64,
+    },
+    /// A corner index beyond the points.
+    #[error("domain.loop {loop_number}: corner {corner} does not exist, the points are 0 to {last}")]
+    NoSuchCorner {
+        /// The loop.
+        loop_number: usize,
+        /// The index.
+        corner: usize,
+        /// The largest one allowed.
+        last: usize,
+    },
+    /// The same corner twice.
+    #[error("domain.loop {loop_number}: corner {corner} is listed twice")]
+    CornerTwice {
+        /// The loop.
+        loop_number: usize,
+        /// The index.
+        corner: usize,
+    },
+    /// An angle limit outside 0..180.
+    #[error("domain.loop {loop_number}: corner_angle_deg must lie between 0 and 180, found {value}")]
+    CornerAngle {
+        /// The loop.
+        loop_number: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// Two loops cross or touch.
+    #[error("domain: loops {first} and {second} cross or touch near ({x:.6}, {y:.6})")]
+    LoopsMeet {
+        /// One loop.
+        first: usize,
+        /// The other.
+        second: usize,
+        /// Where.
+        x: f64,
+        /// Where.
+        y: f64,
+    },
+    /// A hole is not inside the outer loop.
+    #[error("domain: loop {loop_number}, a hole, lies outside loop 0, the outer boundary")]
+    HoleOutside {
+        /// The hole.
+        loop_number: usize,
+    },
+    /// A hole lies in another.
+    #[error("domain: loop {inner}, a hole, lies inside loop {outer}, another hole")]
+    HoleInHole {
+        /// The one inside.
+        inner: usize,
+        /// The one around it.
+        outer: usize,
+    },
+    /// The file cannot be read.
+    #[error("domain.loop {loop_number}: {error}")]
+    File {
+        /// The loop.
+        loop_number: usize,
+        /// Why.
+        error: ReadError,
+    },
+    /// The file does not have this polyline.
+    #[error(
+        "domain.loop {loop_number}: {file} has {found} polylines (`l`), number {polyline} (from 0) does not exist"
+    )]
+    NoSuchPolyline {
+        /// The loop.
+        loop_number: usize,
+        /// The file.
+        file: String,
+        /// The polyline asked for.
+        polyline: usize,
+        /// How many there are.
+        found: usize,
+    },
+    /// The polyline does not return to its first point.
+    #[error(
+        "domain.loop {loop_number}: {file}:{line}: the polyline is open: it must end in its first vertex"
+    )]
+    OpenPolyline {
+        /// The loop.
+        loop_number: usize,
+        /// The file.
+        file: String,
+        /// The line, from 1.
+        line: usize,
+    },
+    /// The surface does not reach everywhere.
+    #[error("the surface does not cover the domain: no finite height at ({x:.6}, {y:.6}); {extent}")]
+    NotCovered {
+        /// Where.
+        x: f64,
+        /// Where.
+        y: f64,
+        /// Where the surface is.
+        extent: String,
+    },
+    /// A symmetry of the config that the boundary does not have.
+    #[error("domain.symmetries: the boundary does not have `{symmetry}`: {reason}")]
+    NotSymmetric {
+        /// The symmetry.
+        symmetry: &'static str,
+        /// What has no image.
+        reason: String,
+    },
+}

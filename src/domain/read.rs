@@ -1,0 +1,146 @@
+//! From a loop of the config to a curve and its corners.
+
+use super::curve::{Curve, signed_area};
+use super::error::DomainError;
+use super::params::{CornerRule, Corners, LoopParams};
+use crate::io::obj;
+use std::path::Path;
+
+/// The curve of a loop, counter-clockwise, and the parameters of its corners.
+pub(super) fn curve(
+    number: usize,
+    given: &LoopParams,
+    base_dir: &Path,
+) -> Result<(Curve, Vec<f64>), DomainError> {
+    match given {
+        LoopParams::Polyline { points_m, corners, corner_angle_deg } => {
+            let points = points_m
+                .iter()
+                .enumerate()
+                .map(|(i, p)| point(number, p, || format!("point {i}")))
+                .collect::<Result<Vec<_>, _>>()?;
+            polyline(number, points, corners, *corner_angle_deg)
+        }
+        LoopParams::Circle { center_m, radius_m } => {
+            let center = point(number, center_m, || "center_m".to_owned())?;
+            let radius = positive(number, "radius_m", *radius_m)?;
+            Ok((Curve::Ellipse { center, axes: [radius; 2], turn: [1.0, 0.0] }, Vec::new()))
+        }
+        LoopParams::Ellipse { center_m, semi_axes_m, rotation_deg } => {
+            let center = point(number, center_m, || "center_m".to_owned())?;
+            let axes = [
+                positive(number, "semi_axes_m", semi_axes_m[0])?,
+                positive(number, "semi_axes_m", semi_axes_m[1])?,
+            ];
+            let angle = finite(number, || "rotation_deg".to_owned(), *rotation_deg)?.to_radians();
+            Ok((Curve::Ellipse { center, axes, turn: [libm::cos(angle), libm::sin(angle)] }, Vec::new()))
+        }
+        LoopParams::Obj { file, polyline: index, corners, corner_angle_deg } => {
+            let points = obj_points(number, &base_dir.join(file), *index)?;
+            polyline(number, points, corners, *corner_angle_deg)
+        }
+    }
+}
+
+fn finite(loop_number: usize, what: impl Fn() -> String, value: f64) -> Result<f64, DomainError> {
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(DomainError::NotFinite { loop_number, what: what(), value })
+    }
+}
+
+fn positive(loop_number: usize, key: &'static str, value: f64) -> Result<f64, DomainError> {
+    finite(loop_number, || key.to_owned(), value)?;
+    if value > 0.0 { Ok(value) } else { Err(DomainError::NotPositive { loop_number, key, value }) }
+}
+
+/// `[x, y]` or `[x, y, z]` as a point; z is 0 where not given.
+fn point(loop_number: usize, given: &[f64], what: impl Fn() -> String) -> Result<[f64; 3], DomainError> {
+    if given.len() != 2 && given.len() != 3 {
+        return Err(DomainError::Coordinates { loop_number, what: what(), found: given.len() });
+    }
+    let mut position = [0.0; 3];
+    for ((value, &number), axis) in position.iter_mut().zip(given).zip(["x", "y", "z"]) {
+        *value = finite(loop_number, || format!("{axis} of {}", what()), number)?;
+    }
+    Ok(position)
+}
+
+/// The points of a closed polyline of an OBJ file. It is closed when it ends in its first vertex, or at the place of it:
+/// exporters write that vertex twice.
+fn obj_points(loop_number: usize, file: &Path, index: usize) -> Result<Vec<[f64; 3]>, DomainError> {
+    let obj = obj::read(file).map_err(|error| DomainError::File { loop_number, error })?;
+    let name = || file.display().to_string();
+    let Some(polyline) = obj.polylines.get(index) else {
+        let found = obj.polylines.len();
+        return Err(DomainError::NoSuchPolyline { loop_number, file: name(), polyline: index, found });
+    };
+    let mut points: Vec<_> = polyline.iter().map(|&v| obj.vertices[v as usize]).collect();
+    let (first, last) = (points[0], points[points.len() - 1]);
+    let reach = points.iter().flat_map(|p| (0..3).map(|k| (p[k] - first[k]).abs())).fold(0.0, f64::max);
+    if (0..3).any(|k| (first[k] - last[k]).abs() > 1e-9 * reach) {
+        return Err(DomainError::OpenPolyline { loop_number, file: name(), line: obj.polyline_lines[index] });
+    }
+    points.pop();
+    Ok(points)
+}
+
+/// A polyline from its points: turned counter-clockwise, its corners found.
+fn polyline(
+    loop_number: usize,
+    mut points: Vec<[f64; 3]>,
+    corners: &Corners,
+    angle_deg: f64,
+) -> Result<(Curve, Vec<f64>), DomainError> {
+    let count = points.len();
+    if count < 3 {
+        return Err(DomainError::TooFewPoints { loop_number, found: count });
+    }
+    if !(angle_deg > 0.0 && angle_deg < 180.0) {
+        return Err(DomainError::CornerAngle { loop_number, value: angle_deg });
+    }
+    for first in 0..count {
+        let second = (first + 1) % count;
+        let ([x, y, _], [u, v, _]) = (points[first], points[second]);
+        if (x, y) == (u, v) {
+            return Err(DomainError::ZeroEdge { loop_number, first, second, x, y });
+        }
+    }
+    super::check::simple(loop_number, &points)?;
+    let chosen = match corners {
+        Corners::Rule(CornerRule::All) => (0..count).collect(),
+        Corners::Rule(CornerRule::Auto) => {
+            (0..count).filter(|&i| turning(&points, i).abs() > angle_deg.to_radians()).collect()
+        }
+        Corners::Indices(given) => checked_corners(loop_number, given, count)?,
+    };
+    if signed_area(&points) >= 0.0 {
+        return Ok((Curve::Polyline { points }, chosen.into_iter().map(|i| i as f64).collect()));
+    }
+    // Clockwise: the first point stays the first.
+    points[1..].reverse();
+    let corners = chosen.into_iter().map(|i| ((count - i) % count) as f64).collect();
+    Ok((Curve::Polyline { points }, corners))
+}
+
+fn checked_corners(loop_number: usize, given: &[usize], count: usize) -> Result<Vec<usize>, DomainError> {
+    let mut seen = vec![false; count];
+    for &corner in given {
+        let Some(slot) = seen.get_mut(corner) else {
+            return Err(DomainError::NoSuchCorner { loop_number, corner, last: count - 1 });
+        };
+        if std::mem::replace(slot, true) {
+            return Err(DomainError::CornerTwice { loop_number, corner });
+        }
+    }
+    Ok(given.to_vec())
+}
+
+/// Angle by which a closed polyline turns at point `i` in plan, in −π..π.
+fn turning(points: &[[f64; 3]], i: usize) -> f64 {
+    let count = points.len();
+    let (a, b, c) = (points[(i + count - 1) % count], points[i], points[(i + 1) % count]);
+    let (u, v) = ([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]]);
+    libm::atan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1])
+}

@@ -1,0 +1,224 @@
+//! The roof of the British Museum's Great Court (Williams 2001, *The analytic and numerical definition of the geometry of the
+//! British Museum Great Court Roof*; GEOMETRY §4).
+
+use super::dual::{Dual, Real};
+use super::height::HeightFunction;
+
+/// Radius of the reading room's circle about the origin, m.
+const A: f64 = 22.245;
+/// Half width in x, m.
+const B: f64 = 36.625;
+/// Distance of the north wall, m.
+const C: f64 = 46.025;
+/// Distance of the south wall, m.
+const D: f64 = 51.125;
+/// Weight λ of the third function.
+const LAMBDA: f64 = 0.5;
+/// Decay μ of the third function towards the corners.
+const MU: f64 = 14.0;
+/// Height at the circle, m.
+const H1: f64 = 20.955;
+/// Height at the walls, m.
+const H0: f64 = 19.71;
+/// How far outside still counts as on the rim, m.
+const RIM: f64 = 1e-6;
+
+/// The analytic roof between the four walls and the circle. Beyond them the height is that of the nearest wall or of the
+/// circle.
+#[derive(Clone, Copy, Debug)]
+pub struct GreatCourt;
+
+impl HeightFunction for GreatCourt {
+    fn z(&self, x: f64, y: f64) -> f64 {
+        roof(x.clamp(-B, B), y.clamp(-D, C))
+    }
+
+    fn gradient(&self, x: f64, y: f64) -> [f64; 2] {
+        let [x, y] = Dual::variables(x.clamp(-B, B), y.clamp(-D, C));
+        roof(x, y).slope
+    }
+
+    fn covers(&self, x: f64, y: f64) -> bool {
+        let outer = x.abs() <= B + RIM && (-D - RIM..=C + RIM).contains(&y);
+        outer && x * x + y * y >= (A - RIM) * (A - RIM)
+    }
+
+    fn extent(&self) -> String {
+        format!(
+            "the roof is between |x| ≤ {B}, −{D} ≤ y ≤ {C} and the circle of radius {A} m about the origin"
+        )
+    }
+}
+
+/// z = z₁ + z₂ + z₃ inside the walls (|x| ≤ b, −d ≤ y ≤ c).
+///
+/// On the walls Σ q of β is infinite; so β is written with the four wall distances multiplied out, which leaves 0/0 in the
+/// corners alone.
+#[inline]
+fn roof<T: Real>(x: T, y: T) -> T {
+    let k = T::from;
+    let r = (x * x + y * y).sqrt();
+    if r.value() <= A {
+        return k(H1);
+    }
+    let sin = y / r;
+    let sin2 = sin * sin;
+    let (east, west) = (k(B) - x, k(B) + x);
+    let (north, south) = (k(C) - y, k(D) + y);
+    let walls = east * west * north * south;
+    let shrink = k(A) / r;
+    let psi = walls * k(1.0 / (B * B * C * D));
+    let (u, v) = (shrink * x * k(1.0 / B), shrink * y);
+    let eta = psi / ((k(1.0) - u * u) * (k(1.0) - v * k(1.0 / C)) * (k(1.0) + v * k(1.0 / D)));
+    let z1 = k(H1 - H0) * eta + k(H0);
+    let beyond = r * k(1.0 / A) - k(1.0);
+    let z2 = second(beyond, psi, sin, sin2);
+    let sum = (east * east + north * north).sqrt() * west * south
+        + (east * east + south * south).sqrt() * west * north
+        + (west * west + north * north).sqrt() * east * south
+        + (west * west + south * south).sqrt() * east * north;
+    if sum.value() <= 0.0 {
+        return k(H0);
+    }
+    let beta = (k(1.0) - shrink) * walls / sum;
+    z1 + z2 + beta * third(east, north, south, sin, sin2)
+}
+
+/// z₂, with `beyond` = r/a − 1; uses (1 + cos 2θ)/2 = 1 − sin²θ and (1 − cos 2θ)/2 = sin²θ.
+#[inline]
+fn second<T: Real>(beyond: T, psi: T, sin: T, sin2: T) -> T {
+    let k = T::from;
+    let alpha = beyond * psi;
+    let cos2 = k(1.0) - sin2;
+    let n = sin2 + sin;
+    let m = sin2 - sin;
+    let bracket = (k(35.0) + k(10.0) * psi) * cos2 + k(12.0) * n + (k(7.5) + k(12.0) * psi) * m - k(1.6);
+    let ripple = k(2.5) * n * n * (k(1.0) - k(3.0) * alpha) + k(0.625) * m * m * beyond * beyond;
+    alpha * (k(1.0 - LAMBDA) * bracket - k(10.0) * cos2 + ripple)
+}
+
+/// z₃/β; e^(−μ(1+x/b)) is e^(−2μ) / e^(−μ(1−x/b)), which saves one of four exponentials.
+#[inline]
+fn third<T: Real>(east: T, north: T, south: T, sin: T, sin2: T) -> T {
+    /// e^(−2μ) for μ = 14.
+    const E_2MU: f64 = 6.914_400_106_940_203e-13;
+    let k = T::from;
+    let smooth = k(3.5) * (k(1.0) - sin2) + k(3.0) * sin2 + k(0.3) * sin;
+    let at_east = (east * k(-MU / B)).exp();
+    let in_x = at_east + k(E_2MU) / at_east;
+    let in_y = (north * k(-MU / C)).exp() + (south * k(-MU / D)).exp();
+    k(LAMBDA) * smooth + k(1.05) * in_x * in_y
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::surface::{HeightSurface, Surface};
+
+    /// The table of GEOMETRY §4.
+    const TABLE: [(f64, f64, f64); 8] = [
+        (30.0, 20.0, 23.636645776870374),
+        (-30.0, 20.0, 23.636645776870374),
+        (0.0, 40.0, 24.862344852734996),
+        (0.0, -40.0, 27.014456478924764),
+        (30.0, -45.0, 22.52685024630962),
+        (10.0, -30.0, 26.78151684956868),
+        (36.0, 45.0, 20.064447503913726),
+        (-25.0, -10.0, 23.04081921131406),
+    ];
+
+    #[test]
+    fn heights_of_the_table() {
+        for (x, y, z) in TABLE {
+            assert!((GreatCourt.z(x, y) - z).abs() < 1e-12, "z({x}, {y}) = {}", GreatCourt.z(x, y));
+        }
+    }
+
+    #[test]
+    fn walls_corners_and_circle() {
+        for i in 0..=40 {
+            let t = f64::from(i) / 40.0;
+            for (x, y) in [
+                (B, -D + t * (C + D)),
+                (-B, -D + t * (C + D)),
+                (-B + t * 2.0 * B, C),
+                (-B + t * 2.0 * B, -D),
+                // a little outside
+                (B + 1e-3, -D + t * (C + D)),
+                (-B + t * 2.0 * B, C + 5.0),
+            ] {
+                assert_eq!(GreatCourt.z(x, y), H0, "({x}, {y})");
+            }
+            let angle = t * std::f64::consts::TAU;
+            for radius in [A, A - 1e-9, A + 1e-9, 0.5 * A] {
+                let z = GreatCourt.z(radius * libm::cos(angle), radius * libm::sin(angle));
+                assert!((z - H1).abs() < 1e-7, "circle at {angle}: {z}");
+            }
+        }
+        assert_eq!(GreatCourt.z(0.0, 0.0), H1);
+        assert!(GreatCourt.gradient(B, C).iter().all(|g| g.is_finite()));
+    }
+
+    /// The formula as it stands in GEOMETRY §4, term by term.
+    fn as_printed(x: f64, y: f64) -> f64 {
+        let r = x.hypot(y);
+        let (a, b, c, d) = (A, B, C, D);
+        let (sin, cos2) = (y / r, 1.0 - 2.0 * (y / r) * (y / r));
+        let psi = (1.0 - x / b) * (1.0 + x / b) * (1.0 - y / c) * (1.0 + y / d);
+        let ax = a * x / (r * b);
+        let eta = psi / ((1.0 - ax) * (1.0 + ax) * (1.0 - a * y / (r * c)) * (1.0 + a * y / (r * d)));
+        let alpha = (r / a - 1.0) * psi;
+        let q = |p: f64, s: f64| p.hypot(s) / (p * s);
+        let beta = (1.0 - a / r) / (q(b - x, c - y) + q(b - x, d + y) + q(b + x, c - y) + q(b + x, d + y));
+        let n = (1.0 - cos2) / 2.0 + sin;
+        let m = (1.0 - cos2) / 2.0 - sin;
+        let z1 = (H1 - H0) * eta + H0;
+        let z2 = alpha
+            * ((1.0 - LAMBDA)
+                * ((35.0 + 10.0 * psi) * (1.0 + cos2) / 2.0 + 12.0 * n + (7.5 + 12.0 * psi) * m - 1.6)
+                - 5.0 * (1.0 + cos2)
+                + 10.0 * (n / 2.0) * (n / 2.0) * (1.0 - 3.0 * alpha)
+                + 2.5 * (m / 2.0) * (m / 2.0) * (r / a - 1.0) * (r / a - 1.0));
+        let e = |t: f64| (-MU * t).exp();
+        let z3 = beta
+            * (LAMBDA * (1.75 * (1.0 + cos2) + 1.5 * (1.0 - cos2) + 0.3 * sin)
+                + 1.05 * (e(1.0 - x / b) + e(1.0 + x / b)) * (e(1.0 - y / c) + e(1.0 + y / d)));
+        z1 + z2 + z3
+    }
+
+    #[test]
+    fn the_same_as_the_printed_formula_all_over() {
+        let mut worst = 0.0f64;
+        for i in 0..200 {
+            for j in 0..200 {
+                let x = -B + (f64::from(i) + 0.5) / 200.0 * 2.0 * B;
+                let y = -D + (f64::from(j) + 0.5) / 200.0 * (C + D);
+                if x.hypot(y) > A {
+                    worst = worst.max((GreatCourt.z(x, y) - as_printed(x, y)).abs());
+                }
+            }
+        }
+        assert!(worst < 1e-12, "{worst:e}");
+    }
+
+    #[test]
+    fn gradient_is_that_of_the_height() {
+        let h = 1e-5;
+        for (x, y, _) in TABLE {
+            let g = GreatCourt.gradient(x, y);
+            let dx = (GreatCourt.z(x + h, y) - GreatCourt.z(x - h, y)) / (2.0 * h);
+            let dy = (GreatCourt.z(x, y + h) - GreatCourt.z(x, y - h)) / (2.0 * h);
+            assert!((g[0] - dx).abs() < 1e-7 && (g[1] - dy).abs() < 1e-7, "{g:?} {dx} {dy}");
+        }
+    }
+
+    #[test]
+    fn covers_what_lies_between_walls_and_circle() {
+        let roof = HeightSurface(GreatCourt);
+        assert!(roof.height(30.0, 20.0).is_some());
+        assert!(roof.height(0.0, 0.0).is_none());
+        assert!(roof.height(40.0, 0.0).is_none());
+        assert!(roof.height(B, C).is_some());
+        assert_eq!(roof.project([30.0, 20.0, 0.0])[..2], [30.0, 20.0]);
+    }
+}

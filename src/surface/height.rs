@@ -1,0 +1,48 @@
+//! Height surfaces z = f(x, y): a function and its gradient make a [`Surface`].
+
+use super::{Surface, SurfaceKind};
+
+/// A function z = f(x, y) with its gradient, in metres.
+pub trait HeightFunction: Send + Sync {
+    /// Height. Total: where the function does not exist it is continued from the rim, or not finite.
+    fn z(&self, x: f64, y: f64) -> f64;
+
+    /// (∂z/∂x, ∂z/∂y).
+    fn gradient(&self, x: f64, y: f64) -> [f64; 2];
+
+    /// Whether (x, y) lies where the function is meant to be used.
+    fn covers(&self, _x: f64, _y: f64) -> bool {
+        true
+    }
+
+    /// In words, where that is.
+    fn extent(&self) -> String;
+}
+
+/// The surface of a height function.
+#[derive(Clone, Debug)]
+pub struct HeightSurface<F>(pub F);
+
+impl<F: HeightFunction> Surface for HeightSurface<F> {
+    fn kind(&self) -> SurfaceKind {
+        SurfaceKind::Height
+    }
+
+    fn height(&self, x: f64, y: f64) -> Option<f64> {
+        Some(self.0.z(x, y)).filter(|z| z.is_finite() && self.0.covers(x, y))
+    }
+
+    fn project(&self, [x, y, _]: [f64; 3]) -> [f64; 3] {
+        [x, y, self.0.z(x, y)]
+    }
+
+    fn normal(&self, [x, y, _]: [f64; 3]) -> [f64; 3] {
+        let [zx, zy] = self.0.gradient(x, y);
+        let length = (1.0 + zx * zx + zy * zy).sqrt();
+        [-zx / length, -zy / length, 1.0 / length]
+    }
+
+    fn extent(&self) -> String {
+        self.0.extent()
+    }
+}
