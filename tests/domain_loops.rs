@@ -181,7 +181,7 @@ fn wrong_boundaries_are_refused_by_name() {
             with(
                 "kind = 'circle'\ncenter_m = [1, 2]\nradius_m = 0.5\n[[loop]]\nkind = 'circle'\ncenter_m = [2, 2]\nradius_m = 0.5",
             ),
-            "loops 1 and 2 cross or touch near (1.5",
+            "loops 1 and 2 cross or touch near (1.",
         ),
         (with("kind = 'obj'\nfile = 'missing.obj'"), "missing.obj"),
         (with("kind = 'obj'\nfile = 'open.obj'"), "open.obj:6: the polyline is open"),
