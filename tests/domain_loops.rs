@@ -1,5 +1,7 @@
 //! Boundary loops: exact curves, arc lengths, corners, and what is refused.
 
+#![allow(clippy::unwrap_used, reason = "tests")]
+
 use quadrille::domain::{Domain, DomainError, DomainParams};
 use quadrille::surface::{self, SurfaceParams};
 use std::f64::consts::{PI, TAU};

@@ -81,6 +81,7 @@ impl Sub for Dual {
     }
 }
 
+#[expect(clippy::suspicious_arithmetic_impl, reason = "the product rule")]
 impl Mul for Dual {
     type Output = Self;
     #[inline]
@@ -90,6 +91,7 @@ impl Mul for Dual {
     }
 }
 
+#[expect(clippy::suspicious_arithmetic_impl, reason = "the quotient rule")]
 impl Div for Dual {
     type Output = Self;
     #[inline]
