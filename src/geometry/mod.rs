@@ -1,7 +1,33 @@
 //! From the canonical mesh to a dense pattern on the surface, and its fabrication metrics (GEOMETRY).
+//!
+//! ```text
+//! canonical mesh → corners → (topology: flat, pinched) → density → dense → place → relax → check
+//! ```
+//!
+//! Every step is a function of the canonical mesh, the domain, the surface and the parameters: equal codes give equal bytes.
 
+pub mod boundary;
+pub mod check;
+pub mod coarse;
+pub mod conway;
+pub mod corners;
+pub mod dense;
+pub mod density;
+mod develop;
+pub mod force_density;
+pub mod laplacian;
+pub mod limits;
+pub mod metrics;
 pub mod params;
 pub mod pattern;
+pub mod place;
+mod rejection;
+pub mod relax;
+pub mod sparse;
+pub mod topology;
+pub mod vector;
 
+pub use develop::{develop, shape, topological_rejection};
 pub use params::{PatternParams, TopologyParams};
 pub use pattern::{Panel, Pattern};
+pub use rejection::Rejection;

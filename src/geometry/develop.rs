@@ -1,0 +1,135 @@
+//! The chain from the canonical mesh to a checked pattern, each step a function of the one before (GEOMETRY §0).
+
+use super::boundary::{self, BoundaryLoop};
+use super::check;
+use super::coarse::Coarse;
+use super::corners::{self, LoopCorners};
+use super::dense::{Dense, Edges, densify};
+use super::density;
+use super::force_density;
+use super::params::{PatternParams, Pinched, RelaxKind};
+use super::pattern::Pattern;
+use super::place::{self, Placed};
+use super::rejection::Rejection;
+use super::relax;
+use super::topology;
+use crate::domain::Domain;
+use crate::mesh::CanonicalMesh;
+use crate::surface::Surface;
+
+/// What is wrong with a mesh before any geometry: other loops than the domain, flat faces, pinched vertices.
+pub fn topological_rejection(mesh: &CanonicalMesh, domain: &Domain, pinched: Pinched) -> Option<Rejection> {
+    let coarse = Coarse::of(mesh);
+    if coarse.loops.len() != domain.loops.len() {
+        return Some(Rejection::OtherLoops { mesh: coarse.loops.len(), domain: domain.loops.len() });
+    }
+    let corners = corners::assign(&coarse, domain);
+    topology::reject(&coarse, domain, &corners, pinched == Pinched::Allow)
+}
+
+/// Develops a design: corners → densities → placed → relaxed → checked.
+///
+/// [`topological_rejection`] is not asked again; a mesh it refuses gives some pattern or a fold.
+///
+/// # Errors
+/// The [`Rejection`] of the first step that fails.
+pub fn develop(
+    mesh: &CanonicalMesh,
+    domain: &Domain,
+    surface: &dyn Surface,
+    params: &PatternParams,
+) -> Result<Pattern, Rejection> {
+    let pattern = shape(mesh, domain, surface, params)?;
+    check::check(&pattern, domain, surface)?;
+    Ok(pattern)
+}
+
+/// As [`develop`], without the check at the end: to look at what is wrong with a folded pattern.
+///
+/// # Errors
+/// The [`Rejection`] of the first step that fails.
+pub fn shape(
+    mesh: &CanonicalMesh,
+    domain: &Domain,
+    surface: &dyn Surface,
+    params: &PatternParams,
+) -> Result<Pattern, Rejection> {
+    let coarse = Coarse::of(mesh);
+    if coarse.loops.len() != domain.loops.len() {
+        return Err(Rejection::OtherLoops { mesh: coarse.loops.len(), domain: domain.loops.len() });
+    }
+    let corners = corners::assign(&coarse, domain);
+    let stage = Stage { coarse: &coarse, domain, surface, corners: &corners };
+
+    let probe = stage.place(&vec![density::PROBE_PARTS; mesh.strips.len()])?;
+    let lengths = density::strip_lengths(&coarse, &probe.dense, &probe.placed.positions);
+    let densities = density::choose(&coarse, &lengths, params)?;
+    let mut site = stage.place(&densities.parts)?;
+
+    let Site { dense, edges, loops, placed } = &mut site;
+    if params.relax.kind == RelaxKind::ForceDensity {
+        balance(dense, edges, placed, surface)?;
+    } else {
+        let sweeps = relax::Mesh::new(dense.vertex_count, &dense.panels, &edges.list, loops);
+        relax::relax(placed, &sweeps, domain, surface, &params.relax);
+    }
+    Ok(site.into_pattern(&coarse, &corners, densities.target_length))
+}
+
+/// The net of equal force densities held by the boundary, then back onto the surface.
+fn balance(dense: &Dense, edges: &Edges, placed: &mut Placed, surface: &dyn Surface) -> Result<(), Rejection> {
+    let mut is_held = vec![false; dense.vertex_count];
+    for &v in dense.loops.iter().flatten() {
+        is_held[v as usize] = true;
+    }
+    let densities = vec![1.0; edges.list.len()];
+    let net = force_density::solve(&placed.positions, &edges.list, &densities, &[], &is_held)?;
+    for (v, place) in net.into_iter().enumerate().filter(|&(v, _)| !is_held[v]) {
+        placed.positions[v] = surface.project(place);
+    }
+    Ok(())
+}
+
+struct Stage<'a> {
+    coarse: &'a Coarse<'a>,
+    domain: &'a Domain,
+    surface: &'a dyn Surface,
+    corners: &'a [LoopCorners],
+}
+
+struct Site {
+    dense: Dense,
+    edges: Edges,
+    loops: Vec<BoundaryLoop>,
+    placed: Placed,
+}
+
+impl Stage<'_> {
+    fn place(&self, parts: &[u32]) -> Result<Site, Rejection> {
+        let dense = densify(self.coarse, parts);
+        let edges = Edges::of(dense.vertex_count, &dense.panels);
+        let loops = boundary::anchor(self.coarse, &dense, self.domain, self.corners)?;
+        let placed = place::place(self.domain, self.surface, &dense, &edges, &loops)?;
+        Ok(Site { dense, edges, loops, placed })
+    }
+}
+
+impl Site {
+    fn into_pattern(self, coarse: &Coarse<'_>, corners: &[LoopCorners], target_length: f64) -> Pattern {
+        let taken = |(l, c): (&BoundaryLoop, &LoopCorners)| if c.sharp { l.corners.clone() } else { Vec::new() };
+        Pattern {
+            positions: self.placed.positions,
+            panels: self.dense.panels,
+            edges: self.edges.list,
+            corners: self.loops.iter().zip(corners).flat_map(taken).collect(),
+            loop_corners: corners
+                .iter()
+                .map(|c| if c.sharp { c.numbers.clone() } else { c.numbers.start..c.numbers.start })
+                .collect(),
+            loops: self.loops.into_iter().map(|l| l.vertices).collect(),
+            coarse: (0..coarse.mesh.vertex_count as u32).collect(),
+            coarse_face: self.dense.coarse_face,
+            target_length,
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! First positions of the dense mesh, by direct linear solves (GEOMETRY §2.1).
+
+mod annulus;
+mod polar;
+
+use super::boundary::BoundaryLoop;
+use super::dense::{Dense, Edges};
+use super::laplacian::{Laplacian, Weights};
+use super::rejection::Rejection;
+use crate::domain::{BoundaryLoop as Curve, Domain};
+use crate::surface::{Surface, SurfaceKind};
+
+/// Points of a curve looked at to find its middle and whether it is convex.
+const SAMPLES: usize = 256;
+
+/// Positions in plan, and where the boundary vertices stand.
+pub struct Shape {
+    /// x, y of every vertex, m.
+    pub plan: Vec<[f64; 2]>,
+    /// For each loop, the arc length of each of its vertices, m.
+    pub along: Vec<Vec<f64>>,
+}
+
+/// A dense mesh with positions.
+pub struct Placed {
+    /// Positions on the surface (on the boundary curves for boundary vertices), m.
+    pub positions: Vec<[f64; 3]>,
+    /// For each loop, the arc length of each vertex of [`BoundaryLoop::vertices`], m.
+    pub along: Vec<Vec<f64>>,
+}
+
+/// Places every vertex of a dense mesh.
+///
+/// # Errors
+/// [`Rejection::NotFinite`] if a system is singular or a position is no number.
+pub fn place(
+    domain: &Domain,
+    surface: &dyn Surface,
+    dense: &Dense,
+    edges: &Edges,
+    loops: &[BoundaryLoop],
+) -> Result<Placed, Rejection> {
+    let failed = Rejection::NotFinite { stage: "placing" };
+    let shape = in_plan(domain, dense, edges, loops).ok_or_else(|| failed.clone())?;
+    let positions = lift(domain, surface, edges, loops, shape.plan, &shape.along).ok_or_else(|| failed.clone())?;
+    if positions.iter().flatten().all(|x| x.is_finite()) {
+        Ok(Placed { positions, along: shape.along })
+    } else {
+        Err(failed)
+    }
+}
+
+fn in_plan(domain: &Domain, dense: &Dense, edges: &Edges, loops: &[BoundaryLoop]) -> Option<Shape> {
+    if let Some(chart) = annulus::chart(domain) {
+        return annulus::place(domain, &chart, &dense.panels, edges, loops, dense.vertex_count);
+    }
+    let along: Vec<Vec<f64>> = loops.iter().map(|l| l.even(0.0)).collect();
+    let mut is_fixed = vec![false; dense.vertex_count];
+    let mut x = vec![0.0; dense.vertex_count];
+    let mut y = x.clone();
+    for ((held, along), curve) in loops.iter().zip(&along).zip(&domain.loops) {
+        for (&v, &s) in held.vertices.iter().zip(along) {
+            let [px, py, _] = curve.point(s);
+            is_fixed[v as usize] = true;
+            x[v as usize] = px;
+            y[v as usize] = py;
+        }
+    }
+    let harmonic = Laplacian::new(&edges.list, Weights::Equal, &is_fixed)?;
+    harmonic.extend(&mut x);
+    harmonic.extend(&mut y);
+    Some(Shape { plan: x.into_iter().zip(y).map(|(x, y)| [x, y]).collect(), along })
+}
+
+/// From plan to space: boundary vertices exactly onto their curves, the others onto the surface above, or, where there
+/// is none, at harmonic heights.
+fn lift(
+    domain: &Domain,
+    surface: &dyn Surface,
+    edges: &Edges,
+    loops: &[BoundaryLoop],
+    plan: Vec<[f64; 2]>,
+    along: &[Vec<f64>],
+) -> Option<Vec<[f64; 3]>> {
+    let mut positions: Vec<[f64; 3]> = plan.into_iter().map(|[x, y]| [x, y, 0.0]).collect();
+    let mut is_fixed = vec![false; positions.len()];
+    for ((held, along), curve) in loops.iter().zip(along).zip(&domain.loops) {
+        for (&v, &s) in held.vertices.iter().zip(along) {
+            is_fixed[v as usize] = true;
+            positions[v as usize] = curve.point(s);
+        }
+    }
+    let free = || (0..is_fixed.len()).filter(|&v| !is_fixed[v]);
+    match surface.kind() {
+        SurfaceKind::Height => {
+            for v in free() {
+                positions[v] = surface.project(positions[v]);
+            }
+        }
+        SurfaceKind::Closest => {
+            for v in free() {
+                let [x, y, _] = positions[v];
+                positions[v] = match surface.height(x, y) {
+                    Some(z) => [x, y, z],
+                    None => surface.project(positions[v]),
+                };
+            }
+        }
+        SurfaceKind::Free => {
+            let mut z: Vec<f64> = positions.iter().map(|p| p[2]).collect();
+            Laplacian::new(&edges.list, Weights::Equal, &is_fixed)?.extend(&mut z);
+            for (position, z) in positions.iter_mut().zip(z) {
+                position[2] = z;
+            }
+        }
+    }
+    Some(positions)
+}
+
+/// Centroid of the area within a curve, from points along it.
+fn centroid(curve: &Curve) -> [f64; 2] {
+    let points: Vec<[f64; 3]> =
+        (0..SAMPLES).map(|i| curve.point(curve.length() * i as f64 / SAMPLES as f64)).collect();
+    let [ox, oy, _] = points[0];
+    let (mut area, mut cx, mut cy) = (0.0, 0.0, 0.0);
+    for i in 0..SAMPLES {
+        let ([ax, ay, _], [bx, by, _]) = (points[i], points[(i + 1) % SAMPLES]);
+        let cross = (ax - ox) * (by - oy) - (bx - ox) * (ay - oy);
+        area += cross;
+        cx += cross * (ax + bx - 2.0 * ox);
+        cy += cross * (ay + by - 2.0 * oy);
+    }
+    [ox + cx / (3.0 * area), oy + cy / (3.0 * area)]
+}

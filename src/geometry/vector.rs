@@ -1,0 +1,58 @@
+//! Arithmetic of points in space.
+
+/// A point or vector, m.
+pub type Vec3 = [f64; 3];
+
+/// a + b.
+#[inline]
+pub fn add(a: Vec3, b: Vec3) -> Vec3 {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+/// a − b.
+#[inline]
+pub fn sub(a: Vec3, b: Vec3) -> Vec3 {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// k a.
+#[inline]
+pub fn scale(a: Vec3, k: f64) -> Vec3 {
+    [a[0] * k, a[1] * k, a[2] * k]
+}
+
+/// a · b.
+#[inline]
+pub fn dot(a: Vec3, b: Vec3) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// a × b.
+#[inline]
+pub fn cross(a: Vec3, b: Vec3) -> Vec3 {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// |a|.
+#[inline]
+pub fn norm(a: Vec3) -> f64 {
+    dot(a, a).sqrt()
+}
+
+/// |a − b|.
+#[inline]
+pub fn distance(a: Vec3, b: Vec3) -> f64 {
+    norm(sub(a, b))
+}
+
+/// Angle between two vectors, in 0..π; accurate also for small and nearly straight ones.
+#[inline]
+pub fn angle(a: Vec3, b: Vec3) -> f64 {
+    libm::atan2(norm(cross(a, b)), dot(a, b))
+}
+
+/// Twice the area of the triangle a, b, c in plan, positive counter-clockwise.
+#[inline]
+pub fn plan_cross(a: Vec3, b: Vec3, c: Vec3) -> f64 {
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
