@@ -42,11 +42,8 @@ impl<'a> Coarse<'a> {
             edges.extend_from_slice(&strip.edges);
             edge_strip.resize(edges.len(), s as u32);
         }
-        let mut sorted: Vec<(u32, u32, u32)> = edges
-            .iter()
-            .enumerate()
-            .map(|(e, &[u, v])| (u.min(v), u.max(v), e as u32))
-            .collect();
+        let mut sorted: Vec<(u32, u32, u32)> =
+            edges.iter().enumerate().map(|(e, &[u, v])| (u.min(v), u.max(v), e as u32)).collect();
         sorted.sort_unstable();
 
         let mut valence = vec![0; mesh.vertex_count];

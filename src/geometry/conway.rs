@@ -64,7 +64,12 @@ pub fn ambo(pattern: &Pattern) -> PolyMesh {
     for panel in &pattern.panels {
         let corners = panel.corners();
         let n = corners.len();
-        mesh.faces.push((0..n).filter_map(|i| parts.edges.find(corners[i], corners[(i + 1) % n])).map(|e| e as u32).collect());
+        mesh.faces.push(
+            (0..n)
+                .filter_map(|i| parts.edges.find(corners[i], corners[(i + 1) % n]))
+                .map(|e| e as u32)
+                .collect(),
+        );
     }
     for v in 0..pattern.positions.len() {
         let around = parts.around(pattern, v as u32);

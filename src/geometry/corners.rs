@@ -37,7 +37,8 @@ pub fn assign(coarse: &Coarse<'_>, domain: &Domain) -> Vec<LoopCorners> {
         let mut taken = assign_on_loop(coarse, label, &numbers);
         if !numbers.is_empty() && taken.iter().all(Option::is_none) {
             // No vertex carries a mark (only a base mesh from a file can do that): the pattern has to be held somewhere.
-            taken[0] = coarse.loops[label].iter().copied().min_by_key(|&v| (coarse.vertex_faces[v as usize], v));
+            taken[0] =
+                coarse.loops[label].iter().copied().min_by_key(|&v| (coarse.vertex_faces[v as usize], v));
         }
         assigned.push(LoopCorners { numbers, at, taken, sharp: !marked });
     }

@@ -42,11 +42,7 @@ pub fn parts(lengths: &[f64], target_length: f64) -> Vec<u32> {
 ///
 /// # Errors
 /// [`Rejection::TooManyFaces`] over `max_faces`; [`Rejection::NotFinite`] if a length is no number.
-pub fn choose(
-    coarse: &Coarse<'_>,
-    lengths: &[f64],
-    params: &PatternParams,
-) -> Result<Densities, Rejection> {
+pub fn choose(coarse: &Coarse<'_>, lengths: &[f64], params: &PatternParams) -> Result<Densities, Rejection> {
     if !lengths.iter().all(|l| l.is_finite() && *l > 0.0) {
         return Err(Rejection::NotFinite { stage: "measuring strips" });
     }

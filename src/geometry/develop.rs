@@ -77,7 +77,12 @@ pub fn shape(
 }
 
 /// The net of equal force densities held by the boundary, then back onto the surface.
-fn balance(dense: &Dense, edges: &Edges, placed: &mut Placed, surface: &dyn Surface) -> Result<(), Rejection> {
+fn balance(
+    dense: &Dense,
+    edges: &Edges,
+    placed: &mut Placed,
+    surface: &dyn Surface,
+) -> Result<(), Rejection> {
     let mut is_held = vec![false; dense.vertex_count];
     for &v in dense.loops.iter().flatten() {
         is_held[v as usize] = true;
@@ -116,7 +121,8 @@ impl Stage<'_> {
 
 impl Site {
     fn into_pattern(self, coarse: &Coarse<'_>, corners: &[LoopCorners], target_length: f64) -> Pattern {
-        let taken = |(l, c): (&BoundaryLoop, &LoopCorners)| if c.sharp { l.corners.clone() } else { Vec::new() };
+        let taken =
+            |(l, c): (&BoundaryLoop, &LoopCorners)| if c.sharp { l.corners.clone() } else { Vec::new() };
         Pattern {
             positions: self.placed.positions,
             panels: self.dense.panels,

@@ -32,8 +32,7 @@ pub fn excesses(pattern: &Pattern, params: &LimitParams, min_edge_default: f64) 
         at_most("max_valence", most as f64, params.max_valence as f64),
     ];
     if let Some(limit) = params.max_panel_area_m2 {
-        let largest =
-            pattern.panels.iter().map(|p| panel_area(&pattern.positions, p)).fold(0.0, f64::max);
+        let largest = pattern.panels.iter().map(|p| panel_area(&pattern.positions, p)).fold(0.0, f64::max);
         rows.push(at_most("max_panel_area_m2", largest, limit));
     }
     rows

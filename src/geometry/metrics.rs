@@ -86,8 +86,8 @@ impl Singularities {
             is_pole[face[0] as usize] = true;
         }
         let mut found = Self::default();
-        for v in 0..mesh.vertex_count {
-            match (is_pole[v], coarse.on_loop[v].is_some(), coarse.valence[v]) {
+        for (v, &is_pole) in is_pole.iter().enumerate() {
+            match (is_pole, coarse.on_loop[v].is_some(), coarse.valence[v]) {
                 (true, _, _) => found.poles += 1,
                 (false, true, valence) if valence != 3 => found.boundary += 1,
                 (false, false, valence) if valence != 4 => found.inner += 1,

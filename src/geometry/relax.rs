@@ -238,16 +238,14 @@ impl<'a> Sweep<'a> {
         self.halvings.fill(0);
         let p = &self.placed.positions;
         self.next.copy_from_slice(p);
-        for v in 0..p.len() {
-            let [x, y, z, weight] = self.sums[v];
+        for (v, (&here, &[x, y, z, weight])) in p.iter().zip(&self.sums).enumerate() {
             let slides = self.slider_of[v] != u32::MAX;
             if (self.mesh.on_boundary[v] && !slides) || weight <= 0.0 {
                 self.steps[v] = [0.0; 3];
                 continue;
             }
-            let to_target = sub(scale([x, y, z], 1.0 / weight), p[v]);
-            self.steps[v] = scale(to_target, self.damping);
-            self.next[v] = add(p[v], self.steps[v]);
+            self.steps[v] = scale(sub(scale([x, y, z], 1.0 / weight), here), self.damping);
+            self.next[v] = add(here, self.steps[v]);
         }
         let held: Vec<(u32, Vec3)> = self.held_places();
         self.surface.project_all(&mut self.next);
@@ -284,7 +282,8 @@ impl<'a> Sweep<'a> {
     fn shorten(&mut self, v: u32) {
         let i = v as usize;
         self.halvings[i] += 1;
-        let share = if self.halvings[i] > MAX_HALVINGS { 0.0 } else { 0.5f64.powi(i32::from(self.halvings[i])) };
+        let share =
+            if self.halvings[i] > MAX_HALVINGS { 0.0 } else { 0.5f64.powi(i32::from(self.halvings[i])) };
         if self.slider_of[i] != u32::MAX {
             let k = self.slider_of[i] as usize;
             let slider = &self.sliders[k];

@@ -107,12 +107,7 @@ fn fill_reducing_order(n: usize, entries: &[(u32, u32, f64)]) -> Option<Vec<u32>
     Some(perm.into_iter().map(|p| p as u32).collect())
 }
 
-fn numeric(
-    perm: Vec<u32>,
-    start: &[usize],
-    column: &[(u32, f64)],
-    mut diagonal: Vec<f64>,
-) -> Option<Factor> {
+fn numeric(perm: Vec<u32>, start: &[usize], column: &[(u32, f64)], mut diagonal: Vec<f64>) -> Option<Factor> {
     let n = perm.len();
     let (parent, counts) = elimination_tree(n, start, column);
     let mut factor_start = vec![0usize; n + 1];

@@ -19,7 +19,8 @@ pub fn reject(
     if coarse.loops.len() != domain.loops.len() {
         return Some(Rejection::OtherLoops { mesh: coarse.loops.len(), domain: domain.loops.len() });
     }
-    let sides: Vec<Side> = (0..corners.len()).flat_map(|k| sides_of_loop(coarse, domain, corners, k)).collect();
+    let sides: Vec<Side> =
+        (0..corners.len()).flat_map(|k| sides_of_loop(coarse, domain, corners, k)).collect();
     let on_sides = sides_by_vertex(coarse, &sides);
     let faces: Vec<u32> = (0..coarse.mesh.faces.len())
         .filter(|&f| is_flat(coarse, corners, &on_sides, &coarse.mesh.faces[f]))

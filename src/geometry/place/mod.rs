@@ -42,7 +42,8 @@ pub fn place(
 ) -> Result<Placed, Rejection> {
     let failed = Rejection::NotFinite { stage: "placing" };
     let shape = in_plan(domain, dense, edges, loops).ok_or_else(|| failed.clone())?;
-    let positions = lift(domain, surface, edges, loops, shape.plan, &shape.along).ok_or_else(|| failed.clone())?;
+    let positions =
+        lift(domain, surface, edges, loops, shape.plan, &shape.along).ok_or_else(|| failed.clone())?;
     if positions.iter().flatten().all(|x| x.is_finite()) {
         Ok(Placed { positions, along: shape.along })
     } else {
