@@ -1,5 +1,11 @@
 //! Strings and what they mean: tokens, marker, strip addition and deletion, decoding (GRAMMAR §2–§5).
 
+pub mod decode;
+pub mod rules;
 pub mod tokens;
+pub mod walker;
 
+pub use decode::{Decoded, decode};
+pub use rules::{Rules, Skip};
 pub use tokens::{ParseTokensError, Token, Tokens};
+pub use walker::{Added, Deleted, Effect, Walker};

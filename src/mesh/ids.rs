@@ -35,3 +35,7 @@ id!(
     /// A strip label (GRAMMAR §5).
     StripId, "s"
 );
+id!(
+    /// A dart: a directed edge `(u, v)` of a coarse mesh with what lies on its left.
+    DartId, "d"
+);

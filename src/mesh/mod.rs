@@ -1,9 +1,20 @@
 //! Topology only: coarse quad meshes without coordinates (GRAMMAR §1).
 
 pub mod base;
+pub mod base_json;
 pub mod canonical;
+pub mod code;
+pub mod contract;
 pub mod ids;
+pub mod load;
+pub mod quad_mesh;
+pub mod strips;
+pub mod subdivide;
+pub mod unzip;
+pub mod validate;
 
 pub use base::BaseMesh;
 pub use canonical::{CanonicalMesh, Code, Strip};
-pub use ids::{FaceId, StripId, VertexId};
+pub use ids::{DartId, FaceId, StripId, VertexId};
+pub use load::{BaseMeshError, InitialMesh};
+pub use quad_mesh::QuadMesh;
