@@ -1,5 +1,9 @@
 //! The reference cases and base meshes, read from `tests/data/grammar`.
-#![allow(dead_code, reason = "each test file uses what it needs")]
+#![allow(
+    dead_code,
+    clippy::unwrap_used,
+    reason = "each test file uses what it needs; a broken case file is a failure"
+)]
 
 use quadrille::mesh::{BaseMeshError, InitialMesh, base_json};
 use serde_json::Value;
