@@ -7,8 +7,9 @@ use std::process::ExitCode;
 
 /// Validate a config and print what it means, with defaults filled in; run nothing.
 ///
-/// Prints the resolved config as TOML, every default written out. Wrong configs end with exit code 2 and a line for
-/// each problem: file, line, key, what was found, what is allowed.
+/// Prints what the config means, as comments, and then the config with every default written out: the whole is a
+/// config again. Warnings go to stderr. A wrong config ends with exit code 2 and a line for each problem: file, line,
+/// key, what was found, what is allowed.
 #[derive(clap::Args)]
 pub struct Args {
     /// The config.
@@ -20,8 +21,16 @@ pub struct Args {
 }
 
 /// Prints the resolved config.
-pub fn run(args: Args, _console: &Console) -> Result<ExitCode, CliError> {
+pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     let config = config::load(&args.config, &args.set)?;
+    for warning in config::warnings(&config) {
+        console.warn(&warning);
+    }
+    println!("# {}: what this config means", args.config.display());
+    for line in config::describe(&config) {
+        println!("# * {line}");
+    }
+    println!();
     print!("{}", config::to_toml(&config));
     Ok(ExitCode::SUCCESS)
 }

@@ -3,16 +3,20 @@
 //! [`load`] reads it, checks keys, types and ranges against the schema derived from the types, then what several keys
 //! say together, and fills in defaults. Every refusal names file, line and key, what was found and what is allowed.
 
+mod describe;
 mod error;
 mod names;
 mod path;
+mod reference;
 mod resolved;
 mod rules;
 mod schema;
 mod source;
 
+pub use describe::{describe, warnings};
 pub use error::{ConfigError, Located, Place, Problem};
 pub use path::{KeyPath, Segment};
+pub use reference::reference;
 pub use resolved::{MAY_CHANGE_ON_RESUME, differences, hash, to_toml};
 pub use schema::config_schema;
 

@@ -1,0 +1,270 @@
+//! What a config means, in words, and what its author may not have thought of.
+
+use super::Config;
+use crate::domain::params::{CornerRule, Corners, LoopParams};
+use crate::geometry::params::{Density, InitialMesh, PatternParams};
+use crate::structure::params::{
+    Direction, HeightParams, LoadParams, Quantity, RequirementParams, SectionParams, StructureParams,
+    SupportParams, SupportPlace,
+};
+use crate::surface::params::SurfaceParams;
+
+/// The config in sentences, one for each decision it makes.
+pub fn describe(config: &Config) -> Vec<String> {
+    let mut lines = Vec::new();
+    for (k, boundary_loop) in config.domain.loops.iter().enumerate() {
+        let role = if k == 0 { "outer boundary".to_owned() } else { format!("hole {k}") };
+        lines.push(format!("{role}: {}", describe_loop(boundary_loop)));
+    }
+    lines.push(format!("surface: {}", describe_surface(&config.surface)));
+    lines.push(format!("initial mesh: {}", describe_initial(&config.topology.initial)));
+    lines.extend(describe_pattern(&config.pattern));
+    match &config.structure {
+        Some(structure) => lines.extend(describe_structure(structure)),
+        None => lines.push("structure: not analysed (there is no [structure])".into()),
+    }
+    lines.push(format!("minimised: {}", config.objectives.minimise.join(", ")));
+    lines.extend(describe_search(config));
+    lines
+}
+
+/// Things that are allowed but seldom meant.
+pub fn warnings(config: &Config) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let objectives = &config.objectives.minimise;
+    if let Some(structure) = &config.structure {
+        pinned_objectives(structure, objectives, &mut warnings);
+        if structure.requirements.is_empty() {
+            warnings.push(
+                "no [[structure.requirement]]: nothing limits deflection, utilisation or buckling".into(),
+            );
+        }
+    }
+    if objectives.len() > 4 {
+        warnings.push(format!(
+            "{} objectives: with more than 4 most designs are non-dominated; the archive that parents come from is \
+             thinned by its grid of epsilon = {}",
+            objectives.len(),
+            config.search.archive.epsilon
+        ));
+    }
+    if objectives.len() == 1 {
+        warnings.push("one objective: the front will hold one design".into());
+    }
+    if config.run.seed.is_none() {
+        warnings.push(
+            "no run.seed: each run draws one (and records it), so results differ from run to run".into(),
+        );
+    }
+    warnings
+}
+
+/// A sized height is the least that meets all requirements: one of them is met exactly.
+fn pinned_objectives(structure: &StructureParams, objectives: &[String], warnings: &mut Vec<String>) {
+    if !matches!(structure.height, HeightParams::Sized { .. }) {
+        return;
+    }
+    for requirement in &structure.requirements {
+        let name = match requirement.quantity {
+            Quantity::BucklingFactor => "buckling",
+            Quantity::Deflection => "deflection",
+            Quantity::Utilisation => "utilisation",
+            Quantity::DeflectionVertical | Quantity::UtilisationAll | Quantity::UtilisationVonMises => {
+                continue;
+            }
+        };
+        if objectives.iter().any(|objective| objective == name) {
+            warnings.push(format!(
+                "objective \"{name}\": the height is sized to the requirements, so the governing one sits at its limit \
+                 in nearly every design and says little; minimise \"mass\" instead"
+            ));
+        }
+    }
+}
+
+fn describe_loop(boundary_loop: &LoopParams) -> String {
+    match boundary_loop {
+        LoopParams::Polyline { points_m, corners, corner_angle_deg } => {
+            format!("polyline of {} points, {}", points_m.len(), describe_corners(corners, *corner_angle_deg))
+        }
+        LoopParams::Circle { center_m, radius_m } => {
+            format!("circle of radius {radius_m} m about {center_m:?}")
+        }
+        LoopParams::Ellipse { center_m, semi_axes_m: [a, b], .. } => {
+            format!("ellipse with semi-axes {a} m and {b} m about {center_m:?}")
+        }
+        LoopParams::Obj { file, polyline, corners, corner_angle_deg } => {
+            let corners = describe_corners(corners, *corner_angle_deg);
+            format!("polyline {polyline} of {}, {corners}", file.display())
+        }
+    }
+}
+
+fn describe_corners(corners: &Corners, angle: f64) -> String {
+    match corners {
+        Corners::Rule(CornerRule::All) => "each a corner".into(),
+        Corners::Rule(CornerRule::Auto) => format!("corners where it turns by more than {angle}°"),
+        Corners::Indices(indices) => format!("corners at points {indices:?}"),
+    }
+}
+
+fn describe_surface(surface: &SurfaceParams) -> String {
+    match surface {
+        SurfaceParams::GreatCourt {} => "the Great Court roof (Williams 2001)".into(),
+        SurfaceParams::Plane { z_m } => format!("the plane z = {z_m} m"),
+        SurfaceParams::Height { expression, .. } => format!("z = {expression}"),
+        SurfaceParams::Paraboloid { rise_m, half_spans_m: [a, b], .. } => {
+            format!("a paraboloid that falls by {rise_m} m over {a} m and {b} m")
+        }
+        SurfaceParams::Hypar { rise_m, half_spans_m: [a, b], .. } => {
+            format!("a hyperbolic paraboloid, {rise_m} m high at ({a} m, {b} m)")
+        }
+        SurfaceParams::Sphere { radius_m, .. } => {
+            format!("the upper part of a sphere of radius {radius_m} m")
+        }
+        SurfaceParams::Cylinder { radius_m, .. } => {
+            format!("the upper part of a cylinder of radius {radius_m} m")
+        }
+        SurfaceParams::Mesh { file } => format!("the mesh {}", file.display()),
+        SurfaceParams::Free {} => "none; the relaxation finds the form".into(),
+    }
+}
+
+fn describe_initial(initial: &InitialMesh) -> String {
+    match initial {
+        InitialMesh::Word(_) => "decomposition of the domain along its medial axis".into(),
+        InitialMesh::File { file } => format!("from {}", file.display()),
+        InitialMesh::Grid { grid: [m, n] } => format!("a grid of {m} × {n} faces"),
+        InitialMesh::Inline { vertices, faces, .. } => {
+            format!("{} vertices and {} faces written in the config", vertices.len(), faces.len())
+        }
+    }
+}
+
+fn describe_pattern(pattern: &PatternParams) -> Vec<String> {
+    let density = match (pattern.density, pattern.target_length_m) {
+        (Density::TargetLength, Some(length)) => format!("edges of about {length} m"),
+        _ => format!("as near to {} panels as each topology can come", pattern.panels),
+    };
+    let limits = &pattern.limits;
+    let mut parts = Vec::new();
+    if let Some(length) = limits.min_edge_m {
+        parts.push(format!("members of at least {length} m"));
+    }
+    parts.push(format!("at most {} × the target length", limits.max_edge_factor));
+    parts.push(format!("panel angles of at least {}°", limits.min_angle_deg));
+    parts.push(format!("at most {} members at a node", limits.max_valence));
+    if let Some(area) = limits.max_panel_area_m2 {
+        parts.push(format!("panels of at most {area} m²"));
+    }
+    vec![
+        format!("density: {density}, never more than {} panels", pattern.max_faces),
+        format!("limits (constraints): {}", parts.join(", ")),
+    ]
+}
+
+fn describe_structure(structure: &StructureParams) -> Vec<String> {
+    let order = if structure.order == 1 { "first" } else { "second" };
+    let height = match structure.height {
+        HeightParams::Fixed { fixed_m } => format!("{} mm high", millimetres(fixed_m)),
+        HeightParams::Sized { min_m, max_m, .. } => {
+            format!("as high as the requirements need, {} to {} mm", millimetres(min_m), millimetres(max_m))
+        }
+    };
+    let section = match structure.section {
+        SectionParams::Box { width_m, thickness_m } => {
+            format!("box {} mm wide, wall {} mm", millimetres(width_m), millimetres(thickness_m))
+        }
+        SectionParams::Round {} => "solid round bar".into(),
+        SectionParams::Tube { thickness_m } => format!("round tube, wall {} mm", millimetres(thickness_m)),
+    };
+    let mut lines = vec![format!("structure: rigid frame, {order} order; {section}, {height}")];
+    lines.extend(structure.supports.iter().map(describe_support));
+    lines.extend(structure.loads.iter().map(|(name, load)| format!("load {name}: {}", describe_load(load))));
+    for (name, factors) in &structure.combinations {
+        let sum: Vec<String> = factors.iter().map(|(case, factor)| format!("{factor} {case}")).collect();
+        lines.push(format!("combination {name}: {}", sum.join(" + ")));
+    }
+    lines.extend(structure.requirements.iter().map(describe_requirement));
+    lines
+}
+
+/// A length as an engineer writes it.
+fn millimetres(metres: f64) -> f64 {
+    (metres * 1e6).round() / 1e3
+}
+
+fn describe_support(support: &SupportParams) -> String {
+    let place = match (support.at, support.boundary_loop) {
+        (Some(SupportPlace::Boundary), _) => "all boundary nodes".into(),
+        (Some(SupportPlace::Corners), _) => "corners of the outer boundary".into(),
+        (Some(SupportPlace::All), _) => "all nodes".into(),
+        (None, k) => format!("nodes of boundary loop {}", k.unwrap_or(0)),
+    };
+    let fixed: Vec<&str> = support.fixed.iter().map(|direction| name_of(*direction)).collect();
+    format!("support: {place} fixed in {}", fixed.join(", "))
+}
+
+fn name_of(direction: Direction) -> &'static str {
+    match direction {
+        Direction::Ux => "x",
+        Direction::Uy => "y",
+        Direction::Uz => "z",
+        Direction::Rx => "rotation about x",
+        Direction::Ry => "rotation about y",
+        Direction::Rz => "rotation about z",
+    }
+}
+
+fn describe_load(load: &LoadParams) -> String {
+    match load {
+        LoadParams::Gravity { g_m_s2 } => format!("self weight of the members, g = {g_m_s2} m/s²"),
+        LoadParams::Area { down_pa } => format!("{} kN/m² downwards on the panels", down_pa / 1000.0),
+        LoadParams::Projected { down_pa } => {
+            format!("{} kN/m² downwards on their plan projection", down_pa / 1000.0)
+        }
+    }
+}
+
+fn describe_requirement(requirement: &RequirementParams) -> String {
+    let (quantity, unit) = match requirement.quantity {
+        Quantity::Deflection => ("deflection", " m"),
+        Quantity::DeflectionVertical => ("vertical deflection", " m"),
+        Quantity::Utilisation => ("utilisation", ""),
+        Quantity::UtilisationAll => ("utilisation of all members", ""),
+        Quantity::UtilisationVonMises => ("von Mises utilisation", ""),
+        Quantity::BucklingFactor => ("first buckling factor", ""),
+    };
+    let limit = match (requirement.max, requirement.min) {
+        (Some(max), _) => format!("≤ {max}{unit}"),
+        (None, min) => format!("≥ {}{unit}", min.unwrap_or(0.0)),
+    };
+    format!("required: {quantity} {limit} under {}", requirement.combination)
+}
+
+fn describe_search(config: &Config) -> Vec<String> {
+    let search = &config.search;
+    let most = search.population as u64 * (u64::from(search.generations) + 1);
+    let mut stops = vec![format!("{} generations", search.generations)];
+    stops.extend(search.evaluations.map(|n| format!("{n} structural evaluations")));
+    stops.extend(search.minutes.map(|minutes| format!("{minutes} minutes")));
+    stops.extend(search.stall_generations.map(|n| format!("{n} generations without a better front")));
+    let seed = config.run.seed.map_or("drawn at random".to_owned(), |seed| seed.to_string());
+    vec![
+        format!(
+            "search: population {}, at most {most} designs, ends after {}; strings of {} to {} tokens; seed {seed}",
+            search.population,
+            stops.join(" or "),
+            search.tokens.min,
+            search.tokens.max
+        ),
+        format!("evaluated first: {}", quoted(&search.initial.seeds)),
+    ]
+}
+
+fn quoted(strings: &[String]) -> String {
+    if strings.is_empty() {
+        return "the empty string (the initial mesh)".into();
+    }
+    strings.iter().map(|string| format!("\"{string}\"")).collect::<Vec<_>>().join(", ")
+}
