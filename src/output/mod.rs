@@ -2,6 +2,11 @@
 
 pub mod atomic;
 pub mod compas;
+pub mod designs;
+pub mod explorer;
+pub mod folder;
+pub mod generations;
+pub mod manifest;
 pub mod number;
 pub mod obj;
 #[cfg(test)]

@@ -1,0 +1,140 @@
+//! `pareto.csv` and `history.csv`: one row per design (RUN "Results folder").
+
+use super::table::{Cell, Table};
+use crate::mesh::canonical::Code;
+use crate::search::EvaluatedRow;
+
+/// The first columns of both files.
+pub const FIRST: [&str; 6] = ["id", "string", "expressed", "code", "generation", "feasible"];
+/// The last columns of `history.csv`.
+pub const LAST: [&str; 3] = ["violation_stage", "violation", "reason"];
+
+/// Names of the columns with numbers, with units (`mass_kg`).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Columns {
+    /// Of the objectives, in the order of the config.
+    pub objectives: Vec<String>,
+    /// Of all metrics, in the order of the registry; those of the objectives among them.
+    pub metrics: Vec<String>,
+}
+
+/// A design's name: the first 12 hex digits of its placed + reduced code.
+pub fn id(code: Code) -> String {
+    code.to_string().chars().take(12).collect()
+}
+
+impl Columns {
+    /// The metrics that are no objectives: place and name.
+    fn others(&self) -> impl Iterator<Item = (usize, &String)> {
+        self.metrics.iter().enumerate().filter(|(_, name)| !self.objectives.contains(name))
+    }
+
+    fn header(&self) -> Vec<String> {
+        let first = FIRST.iter().map(|&name| name.to_owned());
+        first
+            .chain(self.objectives.iter().cloned())
+            .chain(self.others().map(|(_, name)| name.clone()))
+            .collect()
+    }
+
+    fn cells(&self, row: &EvaluatedRow) -> Vec<Cell> {
+        let mut cells: Vec<Cell> = vec![
+            id(row.code).into(),
+            row.tokens.to_string().into(),
+            row.expressed.to_string().into(),
+            row.code.to_string().into(),
+            u64::from(row.generation).into(),
+            row.is_feasible().into(),
+        ];
+        cells.extend((0..self.objectives.len()).map(|i| self.objective(row, i).into()));
+        cells.extend(self.others().map(|(metric, _)| Cell::from(row.metrics.get(metric))));
+        cells
+    }
+
+    /// An objective's value; of a design that did not get far enough to have all of them, the metric of that name.
+    fn objective(&self, row: &EvaluatedRow, index: usize) -> Option<f64> {
+        row.objectives.get(index).copied().or_else(|| {
+            let metric = self.metrics.iter().position(|name| *name == self.objectives[index])?;
+            row.metrics.get(metric)
+        })
+    }
+}
+
+/// The front, ordered by objectives, the first one first, and by code where all are equal.
+pub fn pareto(front: &[&EvaluatedRow], columns: &Columns) -> Table {
+    let mut rows: Vec<&EvaluatedRow> = front.to_vec();
+    rows.sort_by(|a, b| {
+        let pairs = a.objectives.iter().zip(&b.objectives);
+        let by_objectives = pairs.map(|(x, y)| x.total_cmp(y)).find(|order| order.is_ne());
+        by_objectives.unwrap_or(std::cmp::Ordering::Equal).then(a.code.cmp(&b.code))
+    });
+    let mut table = Table::new(columns.header());
+    table.rows = rows.into_iter().map(|row| columns.cells(row)).collect();
+    table
+}
+
+/// All evaluated designs, in the given order.
+pub fn history<'a>(rows: impl IntoIterator<Item = &'a EvaluatedRow>, columns: &Columns) -> Table {
+    let mut table = Table::new(columns.header().into_iter().chain(LAST.map(str::to_owned)));
+    for row in rows {
+        let mut cells = columns.cells(row);
+        cells.push(u64::from(row.violation.stage).into());
+        cells.push(row.violation.measure.into());
+        cells.push(row.reason.to_string().into());
+        table.rows.push(cells);
+    }
+    table
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+    use crate::evolve::Violation;
+
+    pub(crate) fn columns() -> Columns {
+        Columns {
+            objectives: vec!["mass_kg".into(), "curvature".into()],
+            metrics: vec!["curvature".into(), "buckling_factor".into(), "mass_kg".into()],
+        }
+    }
+
+    /// A row with a code that starts with `code`.
+    pub(crate) fn row(code: u64, string: &str, objectives: &[f64], violation: Violation) -> EvaluatedRow {
+        EvaluatedRow {
+            generation: 3,
+            slot: 0,
+            tokens: string.parse().unwrap(),
+            expressed: string.parse().unwrap(),
+            code: Code(u128::from(code) << 64),
+            violation,
+            reason: if violation.is_feasible() { "".into() } else { "too weak, \"badly\"".into() },
+            objectives: objectives.into(),
+            metrics: [Some(0.125), None, Some(1e6)].into_iter().collect(),
+            structural: true,
+        }
+    }
+
+    #[test]
+    fn pareto_is_sorted_and_has_the_promised_columns() {
+        let (a, b) = (row(1, "ATA", &[2.0, 0.5], Violation::NONE), row(2, "", &[1.5, 1.0], Violation::NONE));
+        let text = String::from_utf8(pareto(&[&a, &b], &columns()).to_csv()).unwrap();
+        assert_eq!(
+            text,
+            "id,string,expressed,code,generation,feasible,mass_kg,curvature,buckling_factor\n\
+             000000000000,,,0000000000000002,3,true,1.5,1,\n\
+             000000000000,ATA,ATA,0000000000000001,3,true,2,0.5,\n"
+        );
+    }
+
+    #[test]
+    fn history_says_why() {
+        let failed = row(0xabc << 52, "A*", &[], Violation::new(1, 0.25));
+        let text = String::from_utf8(history([&failed], &columns()).to_csv()).unwrap();
+        let line = text.lines().nth(1).unwrap();
+        assert_eq!(
+            line,
+            "abc000000000,A*,A*,abc0000000000000,3,false,1000000,0.125,,1,0.25,\"too weak, \"\"badly\"\"\""
+        );
+        assert!(text.lines().next().unwrap().ends_with("buckling_factor,violation_stage,violation,reason"));
+    }
+}

@@ -1,0 +1,193 @@
+//! The results folder: where each file is, who may write, and whether a run is finished.
+
+use super::atomic;
+use std::fs::{self, File, TryLockError};
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Files of the front as a table.
+pub const PARETO: &str = "pareto.csv";
+/// Every evaluated design.
+pub const HISTORY: &str = "history.csv";
+/// One row per generation.
+pub const GENERATIONS: &str = "generations.csv";
+/// One row per generation and operator.
+pub const OPERATORS: &str = "operators.csv";
+/// What was run, with what, where and when.
+pub const MANIFEST: &str = "manifest.json";
+/// State of an unfinished run.
+pub const CHECKPOINT: &str = "checkpoint.json";
+/// The one before.
+pub const CHECKPOINT_PREVIOUS: &str = "checkpoint.previous.json";
+/// The page to look at.
+pub const REPORT: &str = "report.html";
+/// Folder of the front's designs.
+pub const DESIGNS: &str = "designs";
+/// Folder for Design Explorer.
+pub const DESIGN_EXPLORER: &str = "design_explorer";
+const LOCK: &str = ".lock";
+
+/// Why a results folder cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum FolderError {
+    /// Another run writes into it.
+    #[error("{} is in use by another run", .0.display())]
+    InUse(PathBuf),
+    /// It holds a finished run.
+    #[error("{} holds a finished run; give another --out, or --force to overwrite it", .0.display())]
+    Finished(PathBuf),
+    /// It holds an interrupted run.
+    #[error("{} holds an interrupted run; --resume goes on with it, --force starts anew", .0.display())]
+    Interrupted(PathBuf),
+    /// There is nothing to go on with.
+    #[error("{} holds no checkpoint to resume", .0.display())]
+    NoCheckpoint(PathBuf),
+    /// The system refuses.
+    #[error("{}: {source}", path.display())]
+    Io {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+}
+
+/// What a run does with what is there.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Opening {
+    /// Only an empty or new folder will do.
+    New,
+    /// Whatever is there is removed.
+    Overwrite,
+    /// Go on with an interrupted run.
+    Resume,
+}
+
+/// A results folder that this process alone may write to, as long as the value lives.
+#[derive(Debug)]
+pub struct Folder {
+    path: PathBuf,
+    _lock: File,
+}
+
+impl Folder {
+    /// Makes the folder if need be and locks it.
+    ///
+    /// # Errors
+    /// [`FolderError`]: in use, holding a run that `opening` does not allow for, or not writable.
+    pub fn open(path: &Path, opening: Opening) -> Result<Self, FolderError> {
+        let io = |path: &Path| {
+            let path = path.to_path_buf();
+            |source| FolderError::Io { path, source }
+        };
+        fs::create_dir_all(path).map_err(io(path))?;
+        let lock_path = path.join(LOCK);
+        let lock = File::create(&lock_path).map_err(io(&lock_path))?;
+        match lock.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => return Err(FolderError::InUse(path.to_path_buf())),
+            Err(TryLockError::Error(source)) => return Err(io(&lock_path)(source)),
+        }
+        let folder = Self { path: path.to_path_buf(), _lock: lock };
+        let (finished, checkpoint) = (folder.join(PARETO).exists(), folder.has_checkpoint());
+        match opening {
+            // A run that was stopped by its limits keeps its checkpoint: raised limits let it go on.
+            Opening::Resume if checkpoint => {}
+            Opening::Resume => return Err(FolderError::NoCheckpoint(folder.path)),
+            Opening::New if finished => return Err(FolderError::Finished(folder.path)),
+            Opening::New if checkpoint => return Err(FolderError::Interrupted(folder.path)),
+            Opening::New => {}
+            Opening::Overwrite => folder.clear()?,
+        }
+        Ok(folder)
+    }
+
+    fn has_checkpoint(&self) -> bool {
+        self.join(CHECKPOINT).exists() || self.join(CHECKPOINT_PREVIOUS).exists()
+    }
+
+    /// Removes what a run writes, and nothing else.
+    fn clear(&self) -> Result<(), FolderError> {
+        let files =
+            [PARETO, HISTORY, GENERATIONS, OPERATORS, MANIFEST, CHECKPOINT, CHECKPOINT_PREVIOUS, REPORT];
+        let excel = [PARETO, HISTORY, GENERATIONS].map(excel_name);
+        for name in files.into_iter().chain(excel.iter().map(String::as_str)) {
+            self.remove(name, |path| fs::remove_file(path))?;
+        }
+        for name in [DESIGNS, DESIGN_EXPLORER] {
+            self.remove(name, |path| fs::remove_dir_all(path))?;
+        }
+        Ok(())
+    }
+
+    fn remove(&self, name: &str, remove: impl Fn(&Path) -> io::Result<()>) -> Result<(), FolderError> {
+        let path = self.join(name);
+        match remove(&path) {
+            Err(source) if source.kind() != io::ErrorKind::NotFound => Err(FolderError::Io { path, source }),
+            _ => Ok(()),
+        }
+    }
+
+    /// The folder's path.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The path of a file in it.
+    pub fn join(&self, name: impl AsRef<Path>) -> PathBuf {
+        self.path.join(name)
+    }
+
+    /// Writes a file whole ([`atomic::write`]); a folder in `name` is made.
+    ///
+    /// # Errors
+    /// [`FolderError::Io`].
+    pub fn write(&self, name: impl AsRef<Path>, bytes: &[u8]) -> Result<(), FolderError> {
+        let path = self.join(name);
+        let made = path.parent().map_or(Ok(()), fs::create_dir_all);
+        made.and_then(|()| atomic::write(&path, bytes)).map_err(|source| FolderError::Io { path, source })
+    }
+}
+
+/// The name of a table's copy for a spreadsheet with decimal commas: `pareto.csv` → `pareto.excel-eu.csv`.
+pub fn excel_name(name: &str) -> String {
+    format!("{}.excel-eu.csv", name.trim_end_matches(".csv"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_runs_are_kept_out_of_one_folder() {
+        let folder = tempfile::tempdir().unwrap();
+        let first = Folder::open(folder.path(), Opening::New).unwrap();
+        assert!(matches!(Folder::open(folder.path(), Opening::New), Err(FolderError::InUse(_))));
+        drop(first);
+        Folder::open(folder.path(), Opening::New).unwrap();
+    }
+
+    #[test]
+    fn finished_and_interrupted_runs_are_kept() {
+        let temporary = tempfile::tempdir().unwrap();
+        let open = |opening| Folder::open(temporary.path(), opening);
+        assert!(matches!(open(Opening::Resume), Err(FolderError::NoCheckpoint(_))));
+        open(Opening::New).unwrap().write(CHECKPOINT, b"{}").unwrap();
+        assert!(matches!(open(Opening::New), Err(FolderError::Interrupted(_))));
+        open(Opening::Resume).unwrap().write(PARETO, b"id\n").unwrap();
+        assert!(matches!(open(Opening::New), Err(FolderError::Finished(_))));
+    }
+
+    #[test]
+    fn overwriting_removes_results_only() {
+        let temporary = tempfile::tempdir().unwrap();
+        let folder = Folder::open(temporary.path(), Opening::New).unwrap();
+        for name in [PARETO, "designs/a.obj", "notes.txt"] {
+            folder.write(name, b"x").unwrap();
+        }
+        drop(folder);
+        let folder = Folder::open(temporary.path(), Opening::Overwrite).unwrap();
+        assert!(!folder.join(PARETO).exists() && !folder.join(DESIGNS).exists());
+        assert!(folder.join("notes.txt").exists());
+    }
+}

@@ -1,0 +1,150 @@
+//! `manifest.json`: what was run, with what, where and when. The one file that holds times.
+
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+/// Version of the manifest's own layout.
+pub const VERSION: u32 = 1;
+
+/// The manifest of a run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Manifest {
+    /// Version of this layout.
+    pub manifest_version: u32,
+    /// `quadrille`.
+    pub program: String,
+    /// Version of the program that wrote the results.
+    pub program_version: String,
+    /// Name of the run.
+    pub name: String,
+    /// Names of the objectives as in the header of the CSV files.
+    pub objectives: Vec<String>,
+    /// The seed of all chance.
+    pub seed: u64,
+    /// Threads that evaluated.
+    pub threads: usize,
+    /// How the run ended.
+    pub status: Status,
+    /// Why it ended, in words.
+    pub ended_by: String,
+    /// Start of the first sitting, UTC.
+    pub started: String,
+    /// End of the last sitting, UTC.
+    pub ended: String,
+    /// Counts of the whole run.
+    pub counts: Counts,
+    /// Seconds of this sitting.
+    pub seconds: f64,
+    /// The machine.
+    pub host: Host,
+    /// The config as resolved, as TOML.
+    pub config: String,
+    /// Folder to which the paths in it are relative.
+    pub config_folder: String,
+    /// SHA-256 of `config`.
+    pub config_sha256: String,
+    /// SHA-256 of every file that the config names.
+    pub input_files: BTreeMap<String, String>,
+}
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Status {
+    /// By its own limits.
+    Finished,
+    /// By a signal; it can be resumed.
+    Interrupted,
+}
+
+/// Counts of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Counts {
+    /// Generations finished, the first population being generation 0.
+    pub generations: u32,
+    /// Designs evaluated.
+    pub evaluations: u64,
+    /// Of these, those whose structure was analysed.
+    pub structural_evaluations: u64,
+    /// Of these, the feasible ones.
+    pub feasible: u64,
+    /// Size of the front.
+    pub front_size: u64,
+    /// Strings bred, refused ones included.
+    pub bred: u64,
+    /// Children refused because an equal design was known.
+    pub duplicates_refused: u64,
+    /// Children refused because a near design was known.
+    pub neighbours_refused: u64,
+}
+
+/// The machine.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Host {
+    /// Operating system.
+    pub os: String,
+    /// Processor architecture.
+    pub architecture: String,
+    /// Number of processors.
+    pub processors: usize,
+}
+
+impl Host {
+    /// This machine.
+    pub fn here() -> Self {
+        Self {
+            os: std::env::consts::OS.into(),
+            architecture: std::env::consts::ARCH.into(),
+            processors: std::thread::available_parallelism().map_or(1, usize::from),
+        }
+    }
+}
+
+impl Manifest {
+    /// The file.
+    pub fn to_json(&self) -> Vec<u8> {
+        // Plain strings and numbers: nothing here can fail to be written.
+        let mut bytes = serde_json::to_vec_pretty(self).unwrap_or_default();
+        bytes.push(b'\n');
+        bytes
+    }
+}
+
+/// A time as RFC 3339 in UTC, to the second.
+pub fn timestamp(time: SystemTime) -> String {
+    let seconds = time.duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
+    let (year, month, day) = civil(seconds / 86_400);
+    let of_day = seconds % 86_400;
+    format!("{year:04}-{month:02}-{day:02}T{:02}:{:02}:{:02}Z", of_day / 3600, of_day / 60 % 60, of_day % 60)
+}
+
+/// Days since 1970-01-01 as year, month, day of the Gregorian calendar (Hinnant, *chrono-compatible low-level date
+/// algorithms*, `civil_from_days`; here for days ≥ 0).
+fn civil(days: u64) -> (u64, u64, u64) {
+    let z = days + 719_468;
+    let (era, day_of_era) = (z / 146_097, z % 146_097);
+    let year_of_era = (day_of_era - day_of_era / 1460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;
+    let day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
+    let shifted = (5 * day_of_year + 2) / 153;
+    let day = day_of_year - (153 * shifted + 2) / 5 + 1;
+    let month = if shifted < 10 { shifted + 3 } else { shifted - 9 };
+    (era * 400 + year_of_era + u64::from(month <= 2), month, day)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    #[test]
+    fn timestamps() {
+        for (seconds, text) in [
+            (0, "1970-01-01T00:00:00Z"),
+            (951_782_400, "2000-02-29T00:00:00Z"),
+            (1_795_357_245, "2026-11-22T14:20:45Z"),
+        ] {
+            assert_eq!(timestamp(UNIX_EPOCH + Duration::from_secs(seconds)), text);
+        }
+    }
+}
