@@ -7,7 +7,7 @@ mod grammar_cases;
 use grammar_cases::{base, bases, vectors};
 use quadrille::grammar::{Effect, Rules, Tokens, decode};
 use quadrille::mesh::code::{code, rooted_code};
-use quadrille::mesh::{strips, validate};
+use quadrille::mesh::{Distance, Equivalence, distance, strips, validate};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -96,6 +96,8 @@ fn decode_gives_the_reference_meshes() {
             },
             "code": code(mesh, false).to_string(),
             "code_placed": code(mesh, true).to_string(),
+            "code_reduced": Equivalence { placed: false, ..Equivalence::default() }.code(mesh).to_string(),
+            "code_placed_reduced": Equivalence::default().code(mesh).to_string(),
             "code_marker": rooted_code(mesh, decoded.marker, false).to_string(),
         });
         for (key, value) in summary.as_object().unwrap() {
@@ -180,5 +182,32 @@ fn string_distances() {
         let [a, b]: [Tokens; 2] = ["a", "b"].map(|key| case[key].as_str().unwrap().parse().unwrap());
         assert_eq!(case["levenshtein"], a.levenshtein(&b), "{case}");
         assert_eq!(case.get("hamming").cloned(), a.hamming(&b).map(Value::from), "{case}");
+    }
+}
+
+#[test]
+fn topological_distances() {
+    let bases = bases();
+    for case in vectors()["distance"].as_array().unwrap() {
+        let initial = &bases[case["base"].as_str().unwrap()];
+        let [a, b] = ["a", "b"].map(|key| {
+            let tokens: Tokens = case[key].as_str().unwrap().parse().unwrap();
+            decode(initial, &tokens, Rules::Plain).mesh
+        });
+        let max = case["max"].as_u64().unwrap() as usize;
+        for (key, placed, reduce) in [
+            ("distance_placed_reduce", true, true),
+            ("distance_placed", true, false),
+            ("distance_reduce", false, true),
+            ("distance", false, false),
+        ] {
+            let expected = match case[key].as_u64() {
+                Some(d) => Distance::Exactly(d as usize),
+                None => Distance::MoreThan(max),
+            };
+            let equivalence = Equivalence { placed, reduce, mirror: false };
+            assert_eq!(distance(&a, &b, equivalence, max), expected, "{key} of {case}");
+            assert_eq!(distance(&b, &a, equivalence, max), expected, "{key} of {case}, swapped");
+        }
     }
 }

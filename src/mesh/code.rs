@@ -44,13 +44,23 @@ pub fn number(mesh: &QuadMesh, placed: bool) -> Numbering {
 }
 
 impl Numbering {
+    /// The code as it is compared: one (next, twin, colour) a dart.
+    fn written(&self) -> impl Iterator<Item = (u32, u32, u128)> + '_ {
+        self.entries.iter().map(|&[next, twin, rank]| (next, twin, self.colours[rank as usize]))
+    }
+
+    /// Lexicographic order of codes: which of several meshes has the smaller one.
+    pub fn is_smaller_than(&self, other: &Self) -> bool {
+        self.written().lt(other.written())
+    }
+
     /// SHA-256 of all numbers of the code joined by commas.
     pub fn code(&self) -> Code {
         let mut text: Vec<u8> = Vec::with_capacity(self.entries.len() * 12);
-        for &[next, twin, rank] in &self.entries {
+        for (next, twin, colour) in self.written() {
             push_number(&mut text, u128::from(next));
             push_number(&mut text, u128::from(twin));
-            push_number(&mut text, self.colours[rank as usize]);
+            push_number(&mut text, colour);
         }
         text.pop();
         let digest = Sha256::digest(&text);
