@@ -18,6 +18,9 @@ pub(super) trait Real:
     /// f(self), given the value of f and of its derivative at `self.value()`.
     fn chain(self, f: f64, derivative: f64) -> Self;
 
+    /// f(a, b), given the value of f and its two partial derivatives; one whose argument is constant may be anything.
+    fn combine(a: Self, b: Self, f: f64, partials: [f64; 2]) -> Self;
+
     /// √self; at 0 its derivative is taken as 0.
     #[inline]
     fn sqrt(self) -> Self {
@@ -39,6 +42,11 @@ impl Real for f64 {
 
     #[inline]
     fn chain(self, f: f64, _derivative: f64) -> Self {
+        f
+    }
+
+    #[inline]
+    fn combine(_a: Self, _b: Self, f: f64, _partials: [f64; 2]) -> Self {
         f
     }
 }
@@ -115,7 +123,14 @@ impl Real for Dual {
         self.value
     }
 
+    #[inline]
     fn chain(self, f: f64, derivative: f64) -> Self {
         Self { value: f, slope: [derivative * self.slope[0], derivative * self.slope[1]] }
+    }
+
+    fn combine(a: Self, b: Self, f: f64, [by_a, by_b]: [f64; 2]) -> Self {
+        let part = |slope: f64, by: f64| if slope == 0.0 { 0.0 } else { slope * by };
+        let slope = [0, 1].map(|i| part(a.slope[i], by_a) + part(b.slope[i], by_b));
+        Self { value: f, slope }
     }
 }

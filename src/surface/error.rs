@@ -22,12 +22,9 @@ pub enum SurfaceError {
         /// Its value.
         value: f64,
     },
-    /// A kind that this version does not have.
-    #[error("surface kind `{kind}` is not there yet")]
-    Missing {
-        /// The kind.
-        kind: &'static str,
-    },
+    /// An expression cannot be understood.
+    #[error("surface.{0}")]
+    Expression(#[from] super::expression::ExpressionError),
     /// The mesh file cannot be read.
     #[error("{0}")]
     File(#[from] ReadError),

@@ -4,21 +4,26 @@ mod cylinder;
 mod dual;
 mod error;
 
+pub mod expression;
 mod free;
 mod great_court;
 mod height;
 mod hypar;
+mod mesh;
 
 mod paraboloid;
 pub mod params;
 mod plane;
 mod sphere;
+mod tree;
 
 pub use error::SurfaceError;
 pub use great_court::GreatCourt;
 pub use height::{HeightFunction, HeightSurface};
 
+pub use mesh::MeshSurface;
 pub use params::SurfaceParams;
+pub use tree::{Closest, TriangleTree};
 
 use std::path::Path;
 use std::sync::Arc;
@@ -74,7 +79,9 @@ pub fn build(params: &SurfaceParams, base_dir: &Path) -> Result<Arc<dyn Surface>
     Ok(match params {
         SurfaceParams::GreatCourt {} => Arc::new(HeightSurface(GreatCourt)),
         SurfaceParams::Plane { z_m } => Arc::new(HeightSurface(plane::Plane::new(*z_m)?)),
-        SurfaceParams::Height { .. } => return Err(SurfaceError::Missing { kind: "height" }),
+        SurfaceParams::Height { expression, constants, lets } => {
+            Arc::new(HeightSurface(expression::Expression::parse(expression, constants, lets)?))
+        }
         SurfaceParams::Paraboloid { center_m, half_spans_m, rise_m, base_m } => {
             Arc::new(HeightSurface(paraboloid::Paraboloid::new(*center_m, *half_spans_m, *rise_m, *base_m)?))
         }
@@ -85,10 +92,7 @@ pub fn build(params: &SurfaceParams, base_dir: &Path) -> Result<Arc<dyn Surface>
         SurfaceParams::Cylinder { center_m, axis_deg, radius_m } => {
             Arc::new(cylinder::Cylinder::new(*center_m, *axis_deg, *radius_m)?)
         }
-        SurfaceParams::Mesh { file } => {
-            let _ = base_dir.join(file);
-            return Err(SurfaceError::Missing { kind: "mesh" });
-        }
+        SurfaceParams::Mesh { file } => Arc::new(MeshSurface::read(&base_dir.join(file))?),
         SurfaceParams::Free {} => Arc::new(free::Free),
     })
 }
