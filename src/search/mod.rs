@@ -1,12 +1,31 @@
 //! The search over strings: breeding, duplicates, cache, archive, checkpoint (RUN "The search").
+//!
+//! [`run`] knows strings, codes and numbers. What a string means and what it is worth it asks of a [`Problem`],
+//! through a [`Server`] that evaluates batches.
 
+mod breeding;
+mod driver;
+mod known;
+mod normalise;
+mod observer;
 pub mod operators;
+mod outcome;
 pub mod params;
 mod problem;
 mod record;
 mod server;
+mod state;
+mod stop;
+mod store;
 
+pub use driver::run;
+pub use normalise::{ENOUGH, Normalisation};
+pub use observer::{Observer, Progress, Silent};
+pub use outcome::{Ended, Outcome};
 pub use params::{ObjectivesParams, SearchParams};
 pub use problem::{Evaluation, Identity, Problem, RuleOperator, round_significant};
 pub use record::{Breeding, EvaluatedRow, GenerationRow, Metrics, OperatorCount};
 pub use server::{Server, ThreadServer, evaluate};
+pub use state::Settings;
+pub use stop::StopFlag;
+pub use store::{Store, StoreError, differing_keys};

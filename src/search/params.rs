@@ -43,11 +43,20 @@ pub struct SearchParams {
     pub tokens: TokenBounds,
     /// The first population.
     pub initial: InitialParams,
-    /// Probability of crossover.
+    /// Probability that a child bred token-wise has two parents.
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub crossover: f64,
+    /// How often which kind of crossover, relative to each other.
+    pub crossover_kinds: CrossoverKinds,
     /// Token-wise mutation, rates per token.
     pub mutation: MutationParams,
+    /// Rule-wise operators, shares of all children; the rest are bred token-wise.
+    pub rules: RuleParams,
+    /// Share of children that are random strings, without parents; 1 = random search.
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
+    pub immigrants: f64,
+    /// Breed a child anew when topology alone rules it out, instead of recording it as a failure.
+    pub rebreed_rejected: bool,
     /// Which phenotypes count as the same.
     pub duplicates: DuplicateParams,
     /// The bounded archive that parents may come from.
@@ -65,7 +74,11 @@ impl Default for SearchParams {
             tokens: TokenBounds::default(),
             initial: InitialParams::default(),
             crossover: 0.9,
+            crossover_kinds: CrossoverKinds::default(),
             mutation: MutationParams::default(),
+            rules: RuleParams::default(),
+            immigrants: 0.0,
+            rebreed_rejected: true,
             duplicates: DuplicateParams::default(),
             archive: ArchiveParams::default(),
         }
@@ -115,6 +128,54 @@ pub enum Initialiser {
     Structured,
     /// As structured, but follows the decoding and closes a pair only where that is applicable.
     Aware,
+}
+
+/// Weights of the kinds of crossover; only their ratios matter.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct CrossoverKinds {
+    /// One cut at the same place in both parents.
+    #[schemars(extend("minimum" = 0))]
+    pub one_point: f64,
+    /// A middle piece exchanged, cut at the same places in both parents.
+    #[schemars(extend("minimum" = 0))]
+    pub two_point: f64,
+    /// One cut, at a place of its own in each parent.
+    #[schemars(extend("minimum" = 0))]
+    pub cut_and_splice: f64,
+    /// One cut at the end of a rule in each parent.
+    #[schemars(extend("minimum" = 0))]
+    pub rule_ends: f64,
+}
+
+impl Default for CrossoverKinds {
+    fn default() -> Self {
+        Self { one_point: 1.0, two_point: 1.0, cut_and_splice: 1.0, rule_ends: 1.0 }
+    }
+}
+
+/// Rule-wise operators: the share of all children each of them makes from one parent. The rest are bred token-wise.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct RuleParams {
+    /// Append a strip along a valid polyedge reached by the shortest walk.
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
+    pub append_strip: f64,
+    /// Append the deletion of a strip reached by the shortest walk.
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
+    pub append_deletion: f64,
+    /// Drop the last rule.
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
+    pub drop_last: f64,
+    /// Swap `A`, `A*` and `A°` of a pair.
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
+    pub swap_pair: f64,
+}
+
+impl Default for RuleParams {
+    fn default() -> Self {
+        Self { append_strip: 0.2, append_deletion: 0.1, drop_last: 0.1, swap_pair: 0.1 }
+    }
 }
 
 /// Token-wise mutation, rates per token.
@@ -185,10 +246,13 @@ pub struct ArchiveParams {
     /// Most members.
     #[schemars(extend("minimum" = 1))]
     pub max: usize,
+    /// Share of parents drawn from it rather than from the population.
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
+    pub parents: f64,
 }
 
 impl Default for ArchiveParams {
     fn default() -> Self {
-        Self { epsilon: 0.01, max: 200 }
+        Self { epsilon: 0.01, max: 200, parents: 0.0 }
     }
 }

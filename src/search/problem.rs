@@ -18,11 +18,12 @@ pub trait Problem: Sync {
     /// A random string, by the initialiser of the config.
     fn random(&self, rng: &mut Rng) -> Tokens;
 
-    /// Applies a rule-wise operator to `parent`; `None` where it does not apply (nothing to drop, no room).
-    fn vary(&self, operator: RuleOperator, parent: &Tokens, rng: &mut Rng) -> Option<Tokens>;
+    /// Applies a rule-wise operator that has to follow the decoding ([`RuleOperator::AppendStrip`],
+    /// [`RuleOperator::AppendDeletion`]) to a parent's expressed string; `None` where it does not apply.
+    fn vary(&self, operator: RuleOperator, expressed: &Tokens, rng: &mut Rng) -> Option<Tokens>;
 }
 
-/// Operators that work on whole rules and need to follow the decoding (RUN "Operators").
+/// Operators that work on whole rules (RUN "Operators").
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum RuleOperator {
     /// Append a strip along a valid polyedge reached by the shortest walk.

@@ -4,11 +4,16 @@ use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc;
 
-use super::problem::{Evaluation, Problem};
+use rayon::prelude::*;
+
+use super::problem::{Evaluation, Identity, Problem};
 use crate::grammar::Tokens;
 
 /// Evaluates batches of strings.
 pub trait Server {
+    /// What each string means, in order; `Err` with a message where identifying it panicked.
+    fn identify(&self, batch: &[Tokens]) -> Vec<Result<Identity, String>>;
+
     /// Evaluates `batch` and hands each result over with its index as soon as it is there, in any order, on the
     /// caller's thread. Once `stop` returns true nothing new is begun, and what is in flight is still handed over.
     /// Returns when nothing is in flight.
@@ -34,14 +39,17 @@ impl<'a, P: Problem> ThreadServer<'a, P> {
     pub fn new(problem: &'a P, threads: usize) -> Result<Self, rayon::ThreadPoolBuildError> {
         Ok(Self { problem, pool: rayon::ThreadPoolBuilder::new().num_threads(threads).build()? })
     }
-
-    /// The pool, for other work that is pure per item.
-    pub fn pool(&self) -> &rayon::ThreadPool {
-        &self.pool
-    }
 }
 
 impl<P: Problem> Server for ThreadServer<'_, P> {
+    fn identify(&self, batch: &[Tokens]) -> Vec<Result<Identity, String>> {
+        let identify = |tokens: &Tokens| {
+            let identity = catch_unwind(AssertUnwindSafe(|| self.problem.identify(tokens)));
+            identity.map_err(|panic| format!("panic: {}", message(&*panic)))
+        };
+        self.pool.install(|| batch.par_iter().map(identify).collect())
+    }
+
     fn serve(
         &self,
         batch: &[Tokens],

@@ -1,0 +1,305 @@
+//! Making a generation: parents, operators, and the rule that refuses what is known already.
+
+use super::known::{Known, Verdict};
+use super::observer::Observer;
+use super::operators::{
+    OPERATORS, Operator, crossover, drop_last, fit, insert, remove, substitute, swap_pair,
+};
+use super::params::SearchParams;
+use super::problem::{Identity, Problem, RuleOperator};
+use super::record::{Breeding, EvaluatedRow, OperatorCount};
+use super::server::Server;
+use super::state::{Member, State};
+use crate::evolve::{Fitness, Standing, standings, tournament};
+use crate::grammar::Tokens;
+use crate::random::{Rng, below, chance, stream, unit};
+
+/// A string accepted for the generation under way.
+#[derive(Clone, Debug)]
+pub(crate) struct Child {
+    pub(crate) tokens: Tokens,
+    pub(crate) identity: Identity,
+    /// Bit k: operator k of [`OPERATORS`] had a part in it.
+    pub(crate) operators: u16,
+    /// The row that holds its values already, if one does; it may belong to a child before this one.
+    pub(crate) cached: Option<u32>,
+}
+
+/// A place in the generation that is still to be filled.
+struct Slot {
+    rng: Rng,
+    /// Strings refused so far.
+    refused: u32,
+}
+
+/// A string as bred, before anybody looked at what it means.
+struct Draft {
+    tokens: Tokens,
+    operators: u16,
+}
+
+/// Breeds generation `state.next_generation()`: seeds and random strings first, later children.
+///
+/// Rounds: every open slot drafts one string from its own random stream, in slot order; all drafts are identified
+/// (in parallel, nothing is drawn there); then they are judged in slot order. A slot whose drafts were refused
+/// `tries` times becomes a random immigrant's, and stays empty after as many refusals again.
+pub(crate) fn breed<P: Problem>(
+    problem: &P,
+    server: &dyn Server,
+    settings: (&SearchParams, u64),
+    state: &mut State,
+    observer: &mut dyn Observer,
+) -> (Vec<Child>, Breeding) {
+    let (search, seed) = settings;
+    let generation = state.next_generation();
+    let mut known = std::mem::take(&mut state.known);
+    let mut nursery = Nursery {
+        search,
+        known: &mut known,
+        next_row: state.rows.len() as u32,
+        children: Vec::new(),
+        breeding: Breeding {
+            operators: vec![OperatorCount::default(); OPERATORS.len()],
+            ..Breeding::default()
+        },
+    };
+    if generation == 0 {
+        nursery.take_seeds(server, observer);
+    }
+    let parents = Parents::of(state, search);
+    let taken = nursery.children.len();
+    let mut open: Vec<Slot> = (taken..search.population)
+        .map(|slot| Slot { rng: stream(seed, generation, slot as u32), refused: 0 })
+        .collect();
+    let tries = search.duplicates.tries.max(1);
+    while !open.is_empty() {
+        let drafts: Vec<Draft> = open
+            .iter_mut()
+            .map(|slot| match generation == 0 || slot.refused >= tries {
+                true => random(problem, search, &mut slot.rng),
+                false => draft(problem, search, &parents, &mut slot.rng),
+            })
+            .collect();
+        let strings: Vec<Tokens> = drafts.iter().map(|d| d.tokens.clone()).collect();
+        let identities = server.identify(&strings);
+        let mut still_open = Vec::new();
+        for ((mut slot, draft), identity) in open.into_iter().zip(drafts).zip(identities) {
+            if nursery.judge(draft, identity, observer) {
+                nursery.breeding.immigrants += u64::from(generation > 0 && slot.refused >= tries);
+                continue;
+            }
+            slot.refused += 1;
+            if slot.refused < 2 * tries {
+                still_open.push(slot);
+            } else {
+                nursery.breeding.empty += 1;
+            }
+        }
+        open = still_open;
+    }
+    let (children, breeding) = (nursery.children, nursery.breeding);
+    state.known = known;
+    (children, breeding)
+}
+
+/// The generation as it fills.
+struct Nursery<'a> {
+    search: &'a SearchParams,
+    known: &'a mut Known,
+    next_row: u32,
+    children: Vec<Child>,
+    breeding: Breeding,
+}
+
+impl Nursery<'_> {
+    /// The empty string and the seeds of the config, refused only if equal to one before.
+    fn take_seeds(&mut self, server: &dyn Server, observer: &mut dyn Observer) {
+        // The config is validated before a run; a seed that does not parse is skipped with a notice all the same.
+        let mut seeds = vec![Tokens::default()];
+        for text in &self.search.initial.seeds {
+            match text.parse() {
+                Ok(tokens) => seeds.push(tokens),
+                Err(error) => observer.notice(&format!("seed {text:?}: {error}")),
+            }
+        }
+        let identities = server.identify(&seeds);
+        for (tokens, identity) in seeds.into_iter().zip(identities) {
+            match identity {
+                Ok(identity) if matches!(self.known.judge(&identity), Verdict::New | Verdict::Neighbour) => {
+                    self.accept(Draft { tokens, operators: 0 }, identity);
+                }
+                Ok(_) => {}
+                Err(message) => observer.notice(&format!("seed {tokens}: {message}")),
+            }
+        }
+    }
+
+    /// Accepts or refuses a draft; returns whether it was accepted.
+    fn judge(
+        &mut self,
+        draft: Draft,
+        identity: Result<Identity, String>,
+        observer: &mut dyn Observer,
+    ) -> bool {
+        self.breeding.bred += 1;
+        self.count(draft.operators, |c| c.used += 1);
+        let identity = match identity {
+            Ok(identity) => identity,
+            Err(message) => {
+                observer.notice(&format!("string {}: {message}", draft.tokens));
+                self.breeding.rejected += 1;
+                return false;
+            }
+        };
+        match self.known.judge(&identity) {
+            Verdict::Duplicate => self.breeding.duplicates += 1,
+            Verdict::Neighbour => self.breeding.neighbours += 1,
+            _ if self.search.rebreed_rejected && identity.rejected.is_some() => self.breeding.rejected += 1,
+            _ => {
+                self.accept(draft, identity);
+                return true;
+            }
+        }
+        false
+    }
+
+    fn accept(&mut self, draft: Draft, identity: Identity) {
+        let cached = match self.known.judge(&identity) {
+            Verdict::Cached(row) => Some(row),
+            _ => {
+                self.known.insert(identity.code, &identity.neighbourhood, self.next_row);
+                self.next_row += 1;
+                None
+            }
+        };
+        self.breeding.cached += u64::from(cached.is_some());
+        self.children.push(Child { tokens: draft.tokens, identity, operators: draft.operators, cached });
+    }
+
+    fn count(&mut self, operators: u16, change: impl Fn(&mut OperatorCount)) {
+        for (bit, counts) in self.breeding.operators.iter_mut().enumerate() {
+            if operators >> bit & 1 == 1 {
+                change(counts);
+            }
+        }
+    }
+}
+
+/// Whom children come from.
+struct Parents<'a> {
+    rows: &'a [EvaluatedRow],
+    population: &'a [Member],
+    standings: Vec<Standing>,
+    archive: Vec<usize>,
+    from_archive: f64,
+}
+
+impl<'a> Parents<'a> {
+    fn of(state: &'a State, search: &SearchParams) -> Self {
+        let rows = &state.rows;
+        let fitness: Vec<Fitness> = state.population.iter().map(|m| rows[m.row as usize].fitness()).collect();
+        Self {
+            rows,
+            population: &state.population,
+            standings: standings(&fitness),
+            archive: state.archive.ids().collect(),
+            from_archive: search.archive.parents,
+        }
+    }
+
+    /// A parent's string and its expressed string.
+    fn pick(&self, rng: &mut Rng) -> Option<(&'a Tokens, &'a Tokens)> {
+        if chance(rng, self.from_archive) && !self.archive.is_empty() {
+            let row = &self.rows[self.archive[below(rng, self.archive.len())]];
+            return Some((&row.tokens, &row.expressed));
+        }
+        let member = &self.population[tournament(&self.standings, rng)?];
+        Some((&member.tokens, &self.rows[member.row as usize].expressed))
+    }
+}
+
+fn bit(operator: Operator) -> u16 {
+    let place = OPERATORS.iter().position(|o| *o == operator);
+    place.map_or(0, |place| 1 << place)
+}
+
+fn random<P: Problem>(problem: &P, search: &SearchParams, rng: &mut Rng) -> Draft {
+    let mut tokens = problem.random(rng);
+    fit(&mut tokens, search.tokens);
+    Draft { tokens, operators: bit(Operator::Random) }
+}
+
+/// One string: random, rule-wise from one parent, or token-wise from one or two.
+fn draft<P: Problem>(problem: &P, search: &SearchParams, parents: &Parents<'_>, rng: &mut Rng) -> Draft {
+    if chance(rng, search.immigrants) {
+        return random(problem, search, rng);
+    }
+    let draft = match rule_operator(search, rng) {
+        Some(operator) => rule_wise(problem, operator, parents, rng),
+        None => None,
+    };
+    let Some(mut draft) = draft.or_else(|| token_wise(search, parents, rng)) else {
+        return random(problem, search, rng);
+    };
+    fit(&mut draft.tokens, search.tokens);
+    draft
+}
+
+/// Draws a rule-wise operator by its share, or none.
+fn rule_operator(search: &SearchParams, rng: &mut Rng) -> Option<RuleOperator> {
+    let rules = &search.rules;
+    let shares = [
+        (RuleOperator::AppendStrip, rules.append_strip),
+        (RuleOperator::AppendDeletion, rules.append_deletion),
+        (RuleOperator::DropLast, rules.drop_last),
+        (RuleOperator::SwapPair, rules.swap_pair),
+    ];
+    let mut left = unit(rng);
+    let drawn = shares.into_iter().find(|(_, share)| {
+        left -= share;
+        left < 0.0
+    });
+    drawn.map(|(operator, _)| operator)
+}
+
+/// On the parent's expressed string, to which a rule can be appended without changing what comes before.
+fn rule_wise<P: Problem>(
+    problem: &P,
+    operator: RuleOperator,
+    parents: &Parents<'_>,
+    rng: &mut Rng,
+) -> Option<Draft> {
+    let (_, expressed) = parents.pick(rng)?;
+    let (made_by, tokens) = match operator {
+        RuleOperator::AppendStrip => (Operator::AppendStrip, problem.vary(operator, expressed, rng)?),
+        RuleOperator::AppendDeletion => (Operator::AppendDeletion, problem.vary(operator, expressed, rng)?),
+        RuleOperator::DropLast => (Operator::DropLast, drop_last(expressed)?),
+        RuleOperator::SwapPair => (Operator::SwapPair, swap_pair(expressed, rng)?),
+    };
+    Some(Draft { tokens, operators: bit(made_by) })
+}
+
+/// Crossover of two parents or a copy of one, then insertion, removal and substitution.
+fn token_wise(search: &SearchParams, parents: &Parents<'_>, rng: &mut Rng) -> Option<Draft> {
+    let (first, _) = parents.pick(rng)?;
+    let mut operators = 0;
+    let mut tokens = if chance(rng, search.crossover) {
+        let (second, _) = parents.pick(rng)?;
+        let (kind, child) = crossover(first, second, &search.crossover_kinds, search.tokens, rng);
+        operators |= bit(kind);
+        child
+    } else {
+        first.clone()
+    };
+    let rates = search.mutation;
+    if remove(&mut tokens, rates.remove, search.tokens.min, rng) {
+        operators |= bit(Operator::Remove);
+    }
+    if substitute(&mut tokens, rates.substitute, rng) {
+        operators |= bit(Operator::Substitute);
+    }
+    if insert(&mut tokens, rates.insert, search.tokens.max, rng) {
+        operators |= bit(Operator::Insert);
+    }
+    Some(Draft { tokens, operators })
+}

@@ -1,0 +1,242 @@
+//! The run: generation after generation until a stopping rule holds (NSGA-II, Deb et al. 2002, §III-C).
+
+use std::cell::RefCell;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use super::breeding::{Child, breed};
+use super::observer::{Observer, Progress};
+use super::outcome::{Ended, Outcome};
+use super::params::SearchParams;
+use super::problem::{Evaluation, Problem};
+use super::server::Server;
+use super::state::{Settings, State};
+use super::stop::StopFlag;
+use super::store::{Store, StoreError};
+
+/// A run ends when this many generations in a row bring nothing new.
+const BARREN: usize = 100;
+
+/// Runs the search, from the beginning or from where `store` left off.
+///
+/// The same `problem`, `settings` and recorded state give the same [`Outcome`], whatever the server's threads and
+/// however often the run was interrupted; only a run ended by minutes or a signal ends wherever it was.
+///
+/// # Errors
+/// If the store cannot be read or written; what is on disk can be resumed.
+pub fn run<P: Problem>(
+    problem: &P,
+    server: &dyn Server,
+    settings: &Settings,
+    stop: &StopFlag,
+    mut store: Option<&mut Store>,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, StoreError> {
+    let limits = Limits::of(&settings.search);
+    let mut state = match store.as_deref_mut() {
+        Some(store) => store.recover(settings, observer),
+        None => State::new(&settings.search),
+    };
+    loop {
+        if let Some(signal) = stop.raised() {
+            return Ok(Outcome::of(state, Ended::Interrupted(signal)));
+        }
+        if let Some(ended) = limits.reached(&state) {
+            return Ok(Outcome::of(state, ended));
+        }
+        let (children, breeding) =
+            breed(problem, server, (&settings.search, settings.seed), &mut state, observer);
+        let batch = Batch { children: &children, state: &state, settings, limits: &limits, stop };
+        let (evaluations, ended) = batch.evaluate(server, store.as_deref_mut(), observer)?;
+        state.finish(settings, children, evaluations, breeding);
+        if let Some(ended) = ended {
+            return Ok(Outcome::of(state, ended));
+        }
+        if let Some(store) = store.as_deref_mut() {
+            store.checkpoint(&state)?;
+        }
+        if let Some(row) = state.generations.last() {
+            observer.generation(row);
+        }
+    }
+}
+
+/// The stopping rules.
+struct Limits {
+    generations: u32,
+    evaluations: Option<u64>,
+    deadline: Option<Instant>,
+    stall: Option<u32>,
+}
+
+impl Limits {
+    fn of(search: &SearchParams) -> Self {
+        let minutes = search.minutes.and_then(|m| Duration::try_from_secs_f64(m * 60.0).ok());
+        Self {
+            generations: search.generations,
+            evaluations: search.evaluations,
+            deadline: minutes.and_then(|d| Instant::now().checked_add(d)),
+            stall: search.stall_generations,
+        }
+    }
+
+    /// Whether the time of this sitting is used up.
+    fn late(&self) -> bool {
+        self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
+    }
+
+    fn reached(&self, state: &State) -> Option<Ended> {
+        // The first population is generation 0; `generations` more are bred from it.
+        if state.next_generation() > self.generations {
+            return Some(Ended::Generations);
+        }
+        if self.evaluations.is_some_and(|budget| state.structural() >= budget) {
+            return Some(Ended::Evaluations);
+        }
+        if self.stall.is_some_and(|stall| stalled(state) >= stall as usize) {
+            return Some(Ended::Stall);
+        }
+        if barren(state) >= BARREN {
+            return Some(Ended::Exhausted);
+        }
+        self.late().then_some(Ended::Minutes)
+    }
+}
+
+/// For how many generations the hypervolume has not grown.
+fn stalled(state: &State) -> usize {
+    let Some(last) = state.generations.last().and_then(|g| g.hypervolume) else { return 0 };
+    let same = state.generations.iter().rev().take_while(|g| g.hypervolume == Some(last)).count();
+    same.saturating_sub(1)
+}
+
+/// For how many generations nothing was evaluated.
+fn barren(state: &State) -> usize {
+    let evaluations = state.rows.len() as u64;
+    let same = state.generations.iter().rev().take_while(|g| g.evaluations == evaluations).count();
+    same.saturating_sub(1)
+}
+
+/// The evaluation of one generation's new designs.
+struct Batch<'a> {
+    children: &'a [Child],
+    state: &'a State,
+    settings: &'a Settings,
+    limits: &'a Limits,
+    stop: &'a StopFlag,
+}
+
+impl Batch<'_> {
+    /// An evaluation for every new child, and why the run ends here if it does, with some of them missing.
+    ///
+    /// A budget of structural evaluations is kept exactly and independently of threads: near its end only as many
+    /// designs are begun as may still count.
+    fn evaluate(
+        &self,
+        server: &dyn Server,
+        store: Option<&mut Store>,
+        observer: &mut dyn Observer,
+    ) -> Result<(Vec<Option<Evaluation>>, Option<Ended>), StoreError> {
+        let new: Vec<usize> =
+            (0..self.children.len()).filter(|&k| self.children[k].cached.is_none()).collect();
+        let mut sitting = Sitting::new(self, new.len(), store, observer);
+        let mut structural = self.state.structural();
+        let mut begun = 0;
+        while begun < new.len() {
+            let room = match self.limits.evaluations {
+                Some(budget) => usize::try_from(budget.saturating_sub(structural)).unwrap_or(usize::MAX),
+                None => usize::MAX,
+            };
+            if room == 0 {
+                return Ok((sitting.evaluations, Some(Ended::Evaluations)));
+            }
+            let part = &new[begun..new.len().min(begun.saturating_add(room))];
+            if let Some(ended) = sitting.serve(part, server)? {
+                return Ok((sitting.evaluations, Some(ended)));
+            }
+            let done = part.iter().filter_map(|&k| sitting.evaluations[k].as_ref());
+            structural += done.filter(|e| e.structural).count() as u64;
+            begun += part.len();
+        }
+        Ok((sitting.evaluations, None))
+    }
+}
+
+/// Takes evaluations as they come, and writes them down at once.
+struct Sitting<'a> {
+    batch: &'a Batch<'a>,
+    store: Option<&'a mut Store>,
+    observer: &'a mut dyn Observer,
+    evaluations: Vec<Option<Evaluation>>,
+    progress: Progress,
+}
+
+impl<'a> Sitting<'a> {
+    fn new(
+        batch: &'a Batch<'a>,
+        pending: usize,
+        store: Option<&'a mut Store>,
+        observer: &'a mut dyn Observer,
+    ) -> Self {
+        let state = batch.state;
+        let progress = Progress {
+            generation: state.next_generation(),
+            evaluations: state.rows.len() as u64,
+            structural: state.structural(),
+            feasible: state.feasible(),
+            pending: pending as u64,
+            recovered: 0,
+        };
+        Self { batch, store, observer, evaluations: vec![None; batch.children.len()], progress }
+    }
+
+    /// Evaluates the children with the numbers `part`; returns why it stopped before all were done.
+    fn serve(&mut self, part: &[usize], server: &dyn Server) -> Result<Option<Ended>, StoreError> {
+        let Batch { children, limits, stop, .. } = *self.batch;
+        let mut missing = Vec::new();
+        for &k in part {
+            match self.store.as_deref_mut().and_then(|store| store.recovered(children[k].identity.code)) {
+                Some(evaluation) => self.take(k, evaluation, true),
+                None => missing.push(k),
+            }
+        }
+        let strings: Vec<_> = missing.iter().map(|&k| children[k].tokens.clone()).collect();
+        let broken = AtomicBool::new(false);
+        let failure = RefCell::new(None);
+        let halt = || stop.raised().is_some() || limits.late() || broken.load(Ordering::Relaxed);
+        server.serve(&strings, &halt, &mut |index, evaluation| {
+            let k = missing[index];
+            let evaluation = evaluation.sanitised(self.batch.settings.objectives);
+            if let Err(error) = self.record(k, &evaluation) {
+                broken.store(true, Ordering::Relaxed);
+                failure.borrow_mut().get_or_insert(error);
+            }
+            self.take(k, evaluation, false);
+        });
+        if let Some(error) = failure.into_inner() {
+            return Err(error);
+        }
+        if part.iter().all(|&k| self.evaluations[k].is_some()) {
+            return Ok(None);
+        }
+        Ok(Some(stop.raised().map_or(Ended::Minutes, Ended::Interrupted)))
+    }
+
+    fn record(&mut self, k: usize, evaluation: &Evaluation) -> Result<(), StoreError> {
+        let generation = self.batch.state.next_generation();
+        match self.store.as_deref_mut() {
+            Some(store) => store.append(generation, k as u32, &self.batch.children[k], evaluation),
+            None => Ok(()),
+        }
+    }
+
+    fn take(&mut self, k: usize, evaluation: Evaluation, recovered: bool) {
+        self.progress.evaluations += 1;
+        self.progress.structural += u64::from(evaluation.structural);
+        self.progress.feasible += u64::from(evaluation.violation.is_feasible());
+        self.progress.pending -= 1;
+        self.progress.recovered += u64::from(recovered);
+        self.evaluations[k] = Some(evaluation);
+        self.observer.evaluated(&self.progress);
+    }
+}

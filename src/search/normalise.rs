@@ -1,0 +1,137 @@
+//! Normalised objectives, and the hypervolume that is measured in them (RUN "Hypervolume").
+
+use serde::{Deserialize, Serialize};
+
+use crate::evolve::{NonDominated, SampledHypervolume, hypervolume};
+
+/// Fewest feasible evaluations from which a missing ideal or reference is taken.
+pub const ENOUGH: usize = 20;
+
+/// The most objectives whose hypervolume is exact.
+const EXACT: usize = 4;
+
+/// Where 0 and 1 of each normalised objective lie. Absolute numbers, fixed for a run.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub struct Normalisation {
+    /// 0 of each axis.
+    pub ideal: Vec<f64>,
+    /// 1 of each axis, beyond which nothing counts.
+    pub reference: Vec<f64>,
+}
+
+impl Normalisation {
+    /// From the config's lists, an empty one of which is filled from `feasible`: the ideal is the best value of each
+    /// objective, the reference the worst plus a tenth of its size. `None` while something is missing and there are
+    /// fewer than [`ENOUGH`] designs to take it from.
+    pub fn establish<'a>(
+        ideal: &[f64],
+        reference: &[f64],
+        feasible: impl ExactSizeIterator<Item = &'a [f64]>,
+    ) -> Option<Self> {
+        if !ideal.is_empty() && !reference.is_empty() {
+            return Some(Self { ideal: ideal.to_vec(), reference: reference.to_vec() });
+        }
+        if feasible.len() < ENOUGH {
+            return None;
+        }
+        let (best, worst) = extremes(feasible)?;
+        let ideal = if ideal.is_empty() { best } else { ideal.to_vec() };
+        let reference = if reference.is_empty() {
+            let beyond = |(w, i): (&f64, &f64)| {
+                let r = w + 0.1 * w.abs();
+                // An objective that never varied still needs an axis of some length.
+                if r > *i { r } else { i + 0.1 * i.abs() + f64::MIN_POSITIVE.sqrt() }
+            };
+            worst.iter().zip(&ideal).map(beyond).collect()
+        } else {
+            reference.to_vec()
+        };
+        Some(Self { ideal, reference })
+    }
+
+    /// A point in units of the axes.
+    pub fn apply(&self, objectives: &[f64]) -> Vec<f64> {
+        let axes = self.ideal.iter().zip(&self.reference);
+        objectives.iter().zip(axes).map(|(f, (ideal, reference))| (f - ideal) / (reference - ideal)).collect()
+    }
+}
+
+/// The smallest and the largest value of each objective.
+pub(crate) fn extremes<'a>(points: impl Iterator<Item = &'a [f64]>) -> Option<(Vec<f64>, Vec<f64>)> {
+    points.fold(None, |extremes, point| {
+        let Some((mut low, mut high)) = extremes else { return Some((point.to_vec(), point.to_vec())) };
+        for ((l, h), x) in low.iter_mut().zip(&mut high).zip(point) {
+            *l = l.min(*x);
+            *h = h.max(*x);
+        }
+        Some((low, high))
+    })
+}
+
+/// The hypervolume of a front that only ever improves.
+#[derive(Clone, Debug)]
+pub(crate) struct Volume {
+    normalisation: Normalisation,
+    sampled: Option<SampledHypervolume>,
+    value: f64,
+}
+
+impl Volume {
+    /// Nothing dominated yet.
+    pub(crate) fn new(normalisation: Normalisation) -> Self {
+        let dimensions = normalisation.ideal.len();
+        let sampled = (dimensions > EXACT).then(|| SampledHypervolume::new(dimensions));
+        Self { normalisation, sampled, value: 0.0 }
+    }
+
+    /// Goes on from a front and the value it had.
+    pub(crate) fn restore(&mut self, front: &NonDominated, value: f64) {
+        self.update(front, |_| true);
+        self.value = value;
+    }
+
+    /// The value after the last update.
+    pub(crate) fn value(&self) -> f64 {
+        self.value
+    }
+
+    pub(crate) fn normalisation(&self) -> &Normalisation {
+        &self.normalisation
+    }
+
+    /// Takes a front that dominates all earlier ones; `new` tells which of its members are new.
+    pub(crate) fn update(&mut self, front: &NonDominated, new: impl Fn(usize) -> bool) {
+        let value = match &mut self.sampled {
+            Some(sampled) => {
+                let points = front.ids().zip(front.points()).filter(|(id, _)| new(*id));
+                points.for_each(|(_, point)| sampled.offer(&self.normalisation.apply(point)));
+                sampled.value()
+            }
+            None => {
+                let points: Vec<Vec<f64>> = front.points().map(|p| self.normalisation.apply(p)).collect();
+                let points: Vec<&[f64]> = points.iter().map(Vec::as_slice).collect();
+                hypervolume(&points, &vec![1.0; self.normalisation.ideal.len()])
+            }
+        };
+        // Sums over another set of points may differ in the last bit; a front that improved has not lost volume.
+        self.value = self.value.max(value);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn missing_numbers_come_from_the_first_designs() {
+        let points: Vec<Vec<f64>> = (0..20).map(|k| vec![f64::from(k), -f64::from(k), 3.0]).collect();
+        let few = points[..19].iter().map(Vec::as_slice);
+        assert_eq!(Normalisation::establish(&[], &[], few.clone()), None);
+        let given = Normalisation::establish(&[0.0; 3], &[1.0; 3], few).expect("given");
+        assert_eq!(given.apply(&[0.5, 1.0, -1.0]), [0.5, 1.0, -1.0]);
+        let taken = Normalisation::establish(&[], &[], points.iter().map(Vec::as_slice)).expect("enough");
+        assert_eq!(taken.ideal, [0.0, -19.0, 3.0]);
+        assert!((taken.reference[0] - 20.9).abs() < 1e-12 && taken.reference[1] == 0.0);
+        assert!(taken.reference[2] > 3.0);
+    }
+}

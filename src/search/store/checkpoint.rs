@@ -1,0 +1,91 @@
+//! The state after a finished generation, as a file.
+
+use std::fs;
+use std::io;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use serde_json::value::RawValue;
+
+use super::super::record::GenerationRow;
+use super::super::state::{Member, State};
+use super::journal::checksum;
+
+/// Version of the format; another one is not read.
+const VERSION: u32 = 1;
+
+/// The file: a checksum over the exact text of the state.
+#[derive(Serialize, Deserialize)]
+struct Envelope<'a> {
+    version: u32,
+    checksum: String,
+    #[serde(borrow)]
+    state: &'a RawValue,
+}
+
+/// What a checkpoint holds; the evaluations themselves are in the journal.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub(super) struct Checkpoint {
+    /// The program that wrote it.
+    program: String,
+    /// The config as resolved, seed included.
+    pub(super) config: Value,
+    /// Designs evaluated in all finished generations.
+    pub(super) evaluations: u64,
+    pub(super) population: Vec<Member>,
+    pub(super) generations: Vec<GenerationRow>,
+}
+
+impl Checkpoint {
+    pub(super) fn of(state: &State, config: &Value) -> Self {
+        Self {
+            program: env!("CARGO_PKG_VERSION").to_owned(),
+            config: config.clone(),
+            evaluations: state.rows.len() as u64,
+            population: state.population.clone(),
+            generations: state.generations.clone(),
+        }
+    }
+
+    /// Number of finished generations.
+    pub(super) fn finished(&self) -> u32 {
+        self.generations.len() as u32
+    }
+
+    pub(super) fn to_bytes(&self) -> serde_json::Result<Vec<u8>> {
+        let state = serde_json::value::to_raw_value(self)?;
+        let checksum = checksum(state.get().as_bytes());
+        let mut bytes = serde_json::to_vec(&Envelope { version: VERSION, checksum, state: &state })?;
+        bytes.push(b'\n');
+        Ok(bytes)
+    }
+
+    fn parse(text: &str) -> Result<Self, String> {
+        let envelope: Envelope<'_> = serde_json::from_str(text).map_err(|error| error.to_string())?;
+        if envelope.version != VERSION {
+            return Err(format!("it has version {}, this program reads {VERSION}", envelope.version));
+        }
+        if envelope.checksum != checksum(envelope.state.get().as_bytes()) {
+            return Err("its checksum is wrong".to_owned());
+        }
+        let checkpoint: Self =
+            serde_json::from_str(envelope.state.get()).map_err(|error| error.to_string())?;
+        if checkpoint.population.iter().any(|m| u64::from(m.row) >= checkpoint.evaluations) {
+            return Err("its population has no values".to_owned());
+        }
+        Ok(checkpoint)
+    }
+}
+
+/// Reads a checkpoint; `None` if there is no such file, an error in words if it cannot be used.
+pub(super) fn read(path: &Path) -> Result<Option<Checkpoint>, String> {
+    match fs::read(path) {
+        Ok(bytes) => {
+            let text = std::str::from_utf8(&bytes).map_err(|error| error.to_string())?;
+            Checkpoint::parse(text).map(Some)
+        }
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(error.to_string()),
+    }
+}

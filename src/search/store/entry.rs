@@ -1,0 +1,123 @@
+//! One evaluation as the journal holds it.
+
+use serde::{Deserialize, Serialize};
+
+use super::super::breeding::Child;
+use super::super::problem::Evaluation;
+use super::super::record::EvaluatedRow;
+use super::super::state::Indexed;
+use crate::evolve::Violation;
+use crate::grammar::Tokens;
+use crate::mesh::canonical::Code;
+
+/// A line of the journal.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Entry {
+    pub(super) generation: u32,
+    pub(super) slot: u32,
+    #[serde(with = "text")]
+    tokens: Tokens,
+    #[serde(with = "text")]
+    expressed: Tokens,
+    #[serde(with = "hex")]
+    code: Code,
+    /// Equivalence codes and their numbers of deletions; left out where it is the code alone.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    nearby: Vec<Nearby>,
+    violation: Violation,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    reason: String,
+    objectives: Vec<f64>,
+    metrics: Vec<Option<f64>>,
+    structural: bool,
+}
+
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+struct Nearby(#[serde(with = "hex")] Code, u8);
+
+impl Entry {
+    pub(super) fn of(generation: u32, slot: u32, child: &Child, evaluation: &Evaluation) -> Self {
+        let identity = &child.identity;
+        let plain = identity.neighbourhood == [(identity.code, 0)];
+        let nearby = identity.neighbourhood.iter().map(|&(code, deleted)| Nearby(code, deleted));
+        let evaluation = evaluation.clone();
+        Self {
+            generation,
+            slot,
+            tokens: child.tokens.clone(),
+            expressed: identity.expressed.clone(),
+            code: identity.code,
+            nearby: if plain { Vec::new() } else { nearby.collect() },
+            violation: evaluation.violation,
+            reason: evaluation.reason,
+            objectives: evaluation.objectives,
+            metrics: evaluation.metrics,
+            structural: evaluation.structural,
+        }
+    }
+
+    pub(super) fn into_evaluation(self) -> (Code, Evaluation) {
+        let evaluation = Evaluation {
+            violation: self.violation,
+            reason: self.reason,
+            objectives: self.objectives,
+            metrics: self.metrics,
+            structural: self.structural,
+        };
+        (self.code, evaluation)
+    }
+
+    pub(super) fn into_indexed(self) -> Indexed {
+        let neighbourhood = match self.nearby.is_empty() {
+            true => vec![(self.code, 0)],
+            false => self.nearby.into_iter().map(|Nearby(code, deleted)| (code, deleted)).collect(),
+        };
+        let row = EvaluatedRow {
+            generation: self.generation,
+            slot: self.slot,
+            tokens: self.tokens,
+            expressed: self.expressed,
+            code: self.code,
+            violation: self.violation,
+            reason: self.reason.into(),
+            objectives: self.objectives.into(),
+            metrics: self.metrics.into_iter().collect(),
+            structural: self.structural,
+        };
+        Indexed { row, neighbourhood }
+    }
+}
+
+/// Strings as they are printed.
+pub(crate) mod text {
+    use serde::de::Error;
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    use crate::grammar::Tokens;
+
+    pub(crate) fn serialize<S: Serializer>(tokens: &Tokens, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(tokens)
+    }
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Tokens, D::Error> {
+        String::deserialize(deserializer)?.parse().map_err(D::Error::custom)
+    }
+}
+
+/// Codes in all their 128 bits.
+mod hex {
+    use serde::de::Error;
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    use crate::mesh::canonical::Code;
+
+    pub(super) fn serialize<S: Serializer>(code: &Code, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(&format_args!("{:032x}", code.0))
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Code, D::Error> {
+        let text = String::deserialize(deserializer)?;
+        u128::from_str_radix(&text, 16).map(Code).map_err(D::Error::custom)
+    }
+}

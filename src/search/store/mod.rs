@@ -1,0 +1,205 @@
+//! What a run writes down while it runs, so that a kill at any moment loses at most the evaluations in flight.
+//!
+//! Three files in the results folder, and a lock:
+//!
+//! * `checkpoint.json`: the state after the last finished generation: population, rows of `generations.csv`, the
+//!   number of evaluated designs, and the resolved config. Versioned, with a checksum, replaced atomically.
+//! * `checkpoint.previous.json`: the one before, in case the newest is damaged.
+//! * `evaluations.jsonl`: a journal of every evaluation, appended to as each is finished. It holds the evaluations
+//!   since the checkpoint, and also all those before: to write these into every checkpoint anew would cost O(n²) over
+//!   a run. One line is a checksum and a JSON object, so a torn or damaged line is noticed and left out.
+//!
+//! Evaluations are pure, so anything missing in the journal can be had again: a run resumes from the newest
+//! checkpoint whose evaluations are all there, else from the one before, else from the beginning, and takes from
+//! the journal whatever it holds, by code. Only time is lost, never a byte of the result.
+//!
+//! A line is handed to the operating system at once, which survives a killed process; it is forced to the disk at
+//! least four times a second and at the end of a generation, so a power failure may cost a quarter of a second.
+
+mod checkpoint;
+mod compare;
+mod entry;
+mod error;
+mod journal;
+
+use std::collections::HashMap;
+use std::fs::{self, File, TryLockError};
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use self::checkpoint::Checkpoint;
+use self::entry::Entry;
+use self::journal::Journal;
+use super::breeding::Child;
+use super::observer::Observer;
+use super::problem::Evaluation;
+use super::state::{Indexed, Settings, State};
+use crate::mesh::canonical::Code;
+use crate::output::atomic;
+
+pub use compare::differing_keys;
+pub(crate) use entry::text;
+pub use error::StoreError;
+
+const CHECKPOINT: &str = "checkpoint.json";
+const PREVIOUS: &str = "checkpoint.previous.json";
+const JOURNAL: &str = "evaluations.jsonl";
+const LOCK: &str = ".lock";
+
+/// The files of one run, locked as long as this lives.
+#[derive(Debug)]
+pub struct Store {
+    folder: PathBuf,
+    config: Value,
+    journal: Journal,
+    found: Found,
+    /// Held for its lock.
+    _lock: File,
+}
+
+/// What an earlier sitting left.
+#[derive(Debug, Default)]
+struct Found {
+    checkpoints: Vec<Checkpoint>,
+    entries: Vec<Entry>,
+    /// Evaluations that no row holds yet. Only looked up.
+    spare: HashMap<Code, Evaluation>,
+    notices: Vec<String>,
+}
+
+impl Store {
+    /// Starts anew in `folder` (made if missing): what an earlier run left of these files is removed.
+    ///
+    /// `config` is the config as resolved, seed included.
+    ///
+    /// # Errors
+    /// If another run holds the folder, or files cannot be written.
+    pub fn create(folder: &Path, config: Value) -> Result<Self, StoreError> {
+        let lock = lock(folder)?;
+        for name in [CHECKPOINT, PREVIOUS] {
+            let path = folder.join(name);
+            match fs::remove_file(&path) {
+                Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                    return Err(StoreError::io(&path, error));
+                }
+                _ => {}
+            }
+        }
+        let journal = Journal::create(&folder.join(JOURNAL), &config)?;
+        Ok(Self { folder: folder.to_path_buf(), config, journal, found: Found::default(), _lock: lock })
+    }
+
+    /// Goes on in `folder`; starts anew where there is nothing to go on from.
+    ///
+    /// # Errors
+    /// If another run holds the folder, files cannot be read or written, or `config` differs from the recorded one in
+    /// anything but threads and the stopping limits.
+    pub fn resume(folder: &Path, config: Value) -> Result<Self, StoreError> {
+        let lock = lock(folder)?;
+        let mut found = Found::default();
+        let mut recorded = None;
+        for name in [CHECKPOINT, PREVIOUS] {
+            match checkpoint::read(&folder.join(name)) {
+                Ok(Some(checkpoint)) => {
+                    recorded.get_or_insert(checkpoint.config.clone());
+                    found.checkpoints.push(checkpoint);
+                }
+                Ok(None) => {}
+                Err(damage) => found.notices.push(format!("{name} is not used: {damage}")),
+            }
+        }
+        // Compared before the journal is opened for writing: a refused resume leaves everything as it was.
+        let left = journal::read(&folder.join(JOURNAL))?;
+        if let Some(recorded) = recorded.as_ref().or(left.config.as_ref()) {
+            let keys = differing_keys(recorded, &config);
+            if !keys.is_empty() {
+                return Err(StoreError::OtherConfig { folder: folder.to_path_buf(), keys });
+            }
+        }
+        let journal = Journal::resume(&folder.join(JOURNAL), &config, &left)?;
+        if left.damaged > 0 {
+            found.notices.push(format!("{JOURNAL}: damaged lines left out: {}", left.damaged));
+        }
+        found.entries = left.entries;
+        Ok(Self { folder: folder.to_path_buf(), config, journal, found, _lock: lock })
+    }
+
+    /// The config recorded in `folder`, if a run was begun there: the seed that was drawn is in it.
+    ///
+    /// # Errors
+    /// If a file exists and cannot be read.
+    pub fn recorded_config(folder: &Path) -> Result<Option<Value>, StoreError> {
+        for name in [CHECKPOINT, PREVIOUS] {
+            if let Ok(Some(checkpoint)) = checkpoint::read(&folder.join(name)) {
+                return Ok(Some(checkpoint.config));
+            }
+        }
+        Ok(journal::read(&folder.join(JOURNAL))?.config)
+    }
+
+    /// The state to go on from.
+    pub(crate) fn recover(&mut self, settings: &Settings, observer: &mut dyn Observer) -> State {
+        let mut found = std::mem::take(&mut self.found);
+        found.notices.iter().for_each(|notice| observer.notice(notice));
+        // A line may be there twice if it was written again after damage before it; both say the same.
+        found.entries.sort_by_key(|e| (e.generation, e.slot));
+        found.entries.dedup_by_key(|e| (e.generation, e.slot));
+        for checkpoint in found.checkpoints {
+            let finished = found.entries.partition_point(|e| e.generation < checkpoint.finished());
+            if finished as u64 == checkpoint.evaluations {
+                let spare = found.entries.split_off(finished);
+                self.found.spare = spare.into_iter().map(Entry::into_evaluation).collect();
+                let rows: Vec<Indexed> = found.entries.into_iter().map(Entry::into_indexed).collect();
+                return State::restore(settings, rows, checkpoint.population, checkpoint.generations);
+            }
+            observer.notice(&format!(
+                "the checkpoint after generation {} is not used: {finished} of its {} evaluations are there",
+                checkpoint.finished().saturating_sub(1),
+                checkpoint.evaluations
+            ));
+        }
+        self.found.spare = found.entries.into_iter().map(Entry::into_evaluation).collect();
+        State::new(&settings.search)
+    }
+
+    /// An evaluation from an earlier sitting, handed out once.
+    pub(crate) fn recovered(&mut self, code: Code) -> Option<Evaluation> {
+        self.found.spare.remove(&code)
+    }
+
+    /// Writes one evaluation down.
+    pub(crate) fn append(
+        &mut self,
+        generation: u32,
+        slot: u32,
+        child: &Child,
+        evaluation: &Evaluation,
+    ) -> Result<(), StoreError> {
+        self.journal.append(&Entry::of(generation, slot, child, evaluation))
+    }
+
+    /// Writes the state after a finished generation; the checkpoint before becomes the previous one.
+    pub(crate) fn checkpoint(&mut self, state: &State) -> Result<(), StoreError> {
+        self.journal.sync()?;
+        let (newest, previous) = (self.folder.join(CHECKPOINT), self.folder.join(PREVIOUS));
+        let bytes = Checkpoint::of(state, &self.config).to_bytes();
+        let bytes = bytes.map_err(|error| StoreError::io(&newest, error.into()))?;
+        if newest.exists() {
+            fs::rename(&newest, &previous).map_err(|error| StoreError::io(&previous, error))?;
+        }
+        atomic::write(&newest, &bytes).map_err(|error| StoreError::io(&newest, error))
+    }
+}
+
+/// Makes the folder and takes its lock, which the operating system drops with the process.
+fn lock(folder: &Path) -> Result<File, StoreError> {
+    fs::create_dir_all(folder).map_err(|error| StoreError::io(folder, error))?;
+    let path = folder.join(LOCK);
+    let file = File::create(&path).map_err(|error| StoreError::io(&path, error))?;
+    match file.try_lock() {
+        Ok(()) => Ok(file),
+        Err(TryLockError::WouldBlock) => Err(StoreError::Locked { folder: folder.to_path_buf() }),
+        Err(TryLockError::Error(error)) => Err(StoreError::io(&path, error)),
+    }
+}
