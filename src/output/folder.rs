@@ -25,6 +25,8 @@ pub const REPORT: &str = "report.html";
 pub const DESIGNS: &str = "designs";
 /// Folder for Design Explorer.
 pub const DESIGN_EXPLORER: &str = "design_explorer";
+/// Every evaluation of a run, as they come.
+pub const JOURNAL: &str = "evaluations.jsonl";
 const LOCK: &str = ".lock";
 
 /// Why a results folder cannot be used.
@@ -80,8 +82,12 @@ impl Folder {
             let path = path.to_path_buf();
             |source| FolderError::Io { path, source }
         };
-        fs::create_dir_all(path).map_err(io(path))?;
         let lock_path = path.join(LOCK);
+        // A run killed before it wrote anything has left its lock file; resuming it is starting it again.
+        if opening == Opening::Resume && !lock_path.exists() && !has_checkpoint(path) {
+            return Err(FolderError::NoCheckpoint(path.to_path_buf()));
+        }
+        fs::create_dir_all(path).map_err(io(path))?;
         let lock = File::create(&lock_path).map_err(io(&lock_path))?;
         match lock.try_lock() {
             Ok(()) => {}
@@ -89,11 +95,10 @@ impl Folder {
             Err(TryLockError::Error(source)) => return Err(io(&lock_path)(source)),
         }
         let folder = Self { path: path.to_path_buf(), _lock: lock };
-        let (finished, checkpoint) = (folder.join(PARETO).exists(), folder.has_checkpoint());
+        let (finished, checkpoint) = (folder.join(PARETO).exists(), has_checkpoint(path));
         match opening {
             // A run that was stopped by its limits keeps its checkpoint: raised limits let it go on.
-            Opening::Resume if checkpoint => {}
-            Opening::Resume => return Err(FolderError::NoCheckpoint(folder.path)),
+            Opening::Resume => {}
             Opening::New if finished => return Err(FolderError::Finished(folder.path)),
             Opening::New if checkpoint => return Err(FolderError::Interrupted(folder.path)),
             Opening::New => {}
@@ -102,14 +107,19 @@ impl Folder {
         Ok(folder)
     }
 
-    fn has_checkpoint(&self) -> bool {
-        self.join(CHECKPOINT).exists() || self.join(CHECKPOINT_PREVIOUS).exists()
-    }
-
     /// Removes what a run writes, and nothing else.
     fn clear(&self) -> Result<(), FolderError> {
-        let files =
-            [PARETO, HISTORY, GENERATIONS, OPERATORS, MANIFEST, CHECKPOINT, CHECKPOINT_PREVIOUS, REPORT];
+        let files = [
+            PARETO,
+            HISTORY,
+            GENERATIONS,
+            OPERATORS,
+            MANIFEST,
+            CHECKPOINT,
+            CHECKPOINT_PREVIOUS,
+            JOURNAL,
+            REPORT,
+        ];
         let excel = [PARETO, HISTORY, GENERATIONS].map(excel_name);
         for name in files.into_iter().chain(excel.iter().map(String::as_str)) {
             self.remove(name, |path| fs::remove_file(path))?;
@@ -147,6 +157,10 @@ impl Folder {
         let made = path.parent().map_or(Ok(()), fs::create_dir_all);
         made.and_then(|()| atomic::write(&path, bytes)).map_err(|source| FolderError::Io { path, source })
     }
+}
+
+fn has_checkpoint(folder: &Path) -> bool {
+    [CHECKPOINT, CHECKPOINT_PREVIOUS, JOURNAL].iter().any(|name| folder.join(name).exists())
 }
 
 /// The name of a table's copy for a spreadsheet with decimal commas: `pareto.csv` → `pareto.excel-eu.csv`.

@@ -14,12 +14,6 @@ pub enum StoreError {
         /// What the system says.
         source: io::Error,
     },
-    /// Another process runs in this folder.
-    #[error("{folder}: another run is under way in this folder")]
-    Locked {
-        /// The folder.
-        folder: PathBuf,
-    },
     /// The run was begun with another config.
     #[error("{folder}: the run was begun with another config; these keys differ: {}", keys.join(", "))]
     OtherConfig {

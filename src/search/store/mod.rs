@@ -1,6 +1,6 @@
 //! What a run writes down while it runs, so that a kill at any moment loses at most the evaluations in flight.
 //!
-//! Three files in the results folder, and a lock:
+//! Three files in the results folder, which the caller has locked ([`crate::output::folder::Folder`]):
 //!
 //! * `checkpoint.json`: the state after the last finished generation: population, rows of `generations.csv`, the
 //!   number of evaluated designs, and the resolved config. Versioned, with a checksum, replaced atomically.
@@ -23,7 +23,7 @@ mod error;
 mod journal;
 
 use std::collections::HashMap;
-use std::fs::{self, File, TryLockError};
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
@@ -37,25 +37,19 @@ use super::problem::Evaluation;
 use super::state::{Indexed, Settings, State};
 use crate::mesh::canonical::Code;
 use crate::output::atomic;
+use crate::output::folder::{CHECKPOINT, CHECKPOINT_PREVIOUS, JOURNAL};
 
 pub use compare::differing_keys;
 pub(crate) use entry::text;
 pub use error::StoreError;
 
-const CHECKPOINT: &str = "checkpoint.json";
-const PREVIOUS: &str = "checkpoint.previous.json";
-const JOURNAL: &str = "evaluations.jsonl";
-const LOCK: &str = ".lock";
-
-/// The files of one run, locked as long as this lives.
+/// The files of one run.
 #[derive(Debug)]
 pub struct Store {
     folder: PathBuf,
     config: Value,
     journal: Journal,
     found: Found,
-    /// Held for its lock.
-    _lock: File,
 }
 
 /// What an earlier sitting left.
@@ -69,15 +63,14 @@ struct Found {
 }
 
 impl Store {
-    /// Starts anew in `folder` (made if missing): what an earlier run left of these files is removed.
+    /// Starts anew in `folder`: what an earlier run left of these files is removed.
     ///
     /// `config` is the config as resolved, seed included.
     ///
     /// # Errors
-    /// If another run holds the folder, or files cannot be written.
+    /// If files cannot be written.
     pub fn create(folder: &Path, config: Value) -> Result<Self, StoreError> {
-        let lock = lock(folder)?;
-        for name in [CHECKPOINT, PREVIOUS] {
+        for name in [CHECKPOINT, CHECKPOINT_PREVIOUS] {
             let path = folder.join(name);
             match fs::remove_file(&path) {
                 Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
@@ -87,19 +80,18 @@ impl Store {
             }
         }
         let journal = Journal::create(&folder.join(JOURNAL), &config)?;
-        Ok(Self { folder: folder.to_path_buf(), config, journal, found: Found::default(), _lock: lock })
+        Ok(Self { folder: folder.to_path_buf(), config, journal, found: Found::default() })
     }
 
     /// Goes on in `folder`; starts anew where there is nothing to go on from.
     ///
     /// # Errors
-    /// If another run holds the folder, files cannot be read or written, or `config` differs from the recorded one in
-    /// anything but threads and the stopping limits.
+    /// If files cannot be read or written, or `config` differs from the recorded one in anything but threads and the
+    /// stopping limits.
     pub fn resume(folder: &Path, config: Value) -> Result<Self, StoreError> {
-        let lock = lock(folder)?;
         let mut found = Found::default();
         let mut recorded = None;
-        for name in [CHECKPOINT, PREVIOUS] {
+        for name in [CHECKPOINT, CHECKPOINT_PREVIOUS] {
             match checkpoint::read(&folder.join(name)) {
                 Ok(Some(checkpoint)) => {
                     recorded.get_or_insert(checkpoint.config.clone());
@@ -122,7 +114,7 @@ impl Store {
             found.notices.push(format!("{JOURNAL}: damaged lines left out: {}", left.damaged));
         }
         found.entries = left.entries;
-        Ok(Self { folder: folder.to_path_buf(), config, journal, found, _lock: lock })
+        Ok(Self { folder: folder.to_path_buf(), config, journal, found })
     }
 
     /// The config recorded in `folder`, if a run was begun there: the seed that was drawn is in it.
@@ -130,7 +122,7 @@ impl Store {
     /// # Errors
     /// If a file exists and cannot be read.
     pub fn recorded_config(folder: &Path) -> Result<Option<Value>, StoreError> {
-        for name in [CHECKPOINT, PREVIOUS] {
+        for name in [CHECKPOINT, CHECKPOINT_PREVIOUS] {
             if let Ok(Some(checkpoint)) = checkpoint::read(&folder.join(name)) {
                 return Ok(Some(checkpoint.config));
             }
@@ -182,24 +174,12 @@ impl Store {
     /// Writes the state after a finished generation; the checkpoint before becomes the previous one.
     pub(crate) fn checkpoint(&mut self, state: &State) -> Result<(), StoreError> {
         self.journal.sync()?;
-        let (newest, previous) = (self.folder.join(CHECKPOINT), self.folder.join(PREVIOUS));
+        let (newest, previous) = (self.folder.join(CHECKPOINT), self.folder.join(CHECKPOINT_PREVIOUS));
         let bytes = Checkpoint::of(state, &self.config).to_bytes();
         let bytes = bytes.map_err(|error| StoreError::io(&newest, error.into()))?;
         if newest.exists() {
             fs::rename(&newest, &previous).map_err(|error| StoreError::io(&previous, error))?;
         }
         atomic::write(&newest, &bytes).map_err(|error| StoreError::io(&newest, error))
-    }
-}
-
-/// Makes the folder and takes its lock, which the operating system drops with the process.
-fn lock(folder: &Path) -> Result<File, StoreError> {
-    fs::create_dir_all(folder).map_err(|error| StoreError::io(folder, error))?;
-    let path = folder.join(LOCK);
-    let file = File::create(&path).map_err(|error| StoreError::io(&path, error))?;
-    match file.try_lock() {
-        Ok(()) => Ok(file),
-        Err(TryLockError::WouldBlock) => Err(StoreError::Locked { folder: folder.to_path_buf() }),
-        Err(TryLockError::Error(error)) => Err(StoreError::io(&path, error)),
     }
 }
