@@ -1,5 +1,22 @@
 //! The in-house linear-elastic frame solver (STRUCTURE). It knows nodes and members, not strips.
+//!
+//! ```text
+//! FrameModel → System (numbering, symbolic factor) → Solver (assembled, factorised) → first / second order, buckling
+//! ```
 
+pub mod buckling;
+pub mod element;
+pub mod factor;
+pub mod file;
+pub mod forces;
+mod frame;
+pub mod mechanism;
+pub mod model;
 pub mod params;
+pub mod section;
+pub mod solver;
+pub mod system;
 
+pub use frame::{FrameAnalysis, FrameError, FrameResult, frame};
+pub use model::{FrameModel, FrameParts, ModelError};
 pub use params::StructureParams;

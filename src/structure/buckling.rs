@@ -1,0 +1,330 @@
+//! Linear buckling: the smallest positive λ of (K + λ Kg) φ = 0.
+//!
+//! With M = K + s Kg positive definite (s below the first positive λ; s = 0 always will do), −Kg φ = ν M φ where
+//! ν = 1 / (λ − s): the wanted λ are the largest ν. Block Lanczos with thick restarts (Wu, Simon 2000) in the inner
+//! product of M, with full re-orthogonalisation; products with M never appear, because for w = M⁻¹ g the product
+//! M w = g is at hand. The start block is random: starting from displacements would miss antisymmetric modes. A block
+//! finds repeated factors as often as they are repeated.
+
+use super::solver::Solver;
+use crate::random;
+use faer::linalg::matmul::matmul;
+use faer::{Accum, MatMut, MatRef, Par};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+
+/// A buckling mode.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mode {
+    /// Load factor λ.
+    pub factor: f64,
+    /// Shape φ, in elimination order.
+    pub shape: Vec<f64>,
+}
+
+/// The iteration did not settle (it never should not).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NoConvergence;
+
+/// How modes are found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Search {
+    /// How many modes.
+    pub modes: usize,
+    /// Residual relative to the eigenvalue at which a mode counts as found; its λ is better than the square of that
+    /// over its distance from the next.
+    pub tolerance: f64,
+}
+
+/// Below this many unknowns the dense problem is solved.
+const DENSE: usize = 150;
+/// Of ν beside the largest |ν|, below which there is no factor but rounding.
+const NOTHING: f64 = 1e-10;
+const RESTARTS: usize = 60;
+
+/// The first modes, λ ascending, at most `search.modes`; fewer if there are no more positive factors.
+///
+/// # Errors
+/// [`NoConvergence`].
+pub fn modes(solver: &mut Solver<'_>, axial: &[f64], search: Search) -> Result<Vec<Mode>, NoConvergence> {
+    if search.modes == 0 || axial.iter().all(|&n| n == 0.0) {
+        return Ok(Vec::new());
+    }
+    let free = solver.system().held().iter().filter(|h| !**h).count();
+    if free <= DENSE { dense(solver, axial, search.modes) } else { Lanczos::new(solver, axial, search).run() }
+}
+
+/// All modes of a small model: L⁻¹ (−Kg) L⁻ᵀ with K = L Lᵀ.
+fn dense(solver: &mut Solver<'_>, axial: &[f64], modes: usize) -> Result<Vec<Mode>, NoConvergence> {
+    let n = solver.system().len();
+    let free: Vec<usize> = (0..n).filter(|&i| !solver.system().held()[i]).collect();
+    let m = free.len();
+    // Columns of −Kg and then K⁻¹ by unit vectors would square the condition; take K itself.
+    let (mut k, mut g) = (DMatrix::zeros(m, m), DMatrix::zeros(m, m));
+    let (mut unit, mut column) = (vec![0.0; n], vec![0.0; n]);
+    for (j, &at) in free.iter().enumerate() {
+        unit[at] = 1.0;
+        solver.minus_geometric(axial, &unit, &mut column);
+        for (i, &row) in free.iter().enumerate() {
+            g[(i, j)] = column[row];
+        }
+        column.fill(0.0);
+        solver.subtract_forces(&unit, None, &mut column);
+        for (i, &row) in free.iter().enumerate() {
+            k[(i, j)] = -column[row];
+        }
+        unit[at] = 0.0;
+    }
+    // Scaled to unit diagonal, so that units do not matter.
+    let scale = DVector::from_fn(m, |i, _| 1.0 / k[(i, i)].sqrt());
+    for j in 0..m {
+        for i in 0..m {
+            k[(i, j)] *= scale[i] * scale[j];
+            g[(i, j)] *= scale[i] * scale[j];
+        }
+    }
+    let l = k.cholesky().ok_or(NoConvergence)?.unpack();
+    let half = l.solve_lower_triangular(&g).ok_or(NoConvergence)?;
+    let mut a = l.solve_lower_triangular(&half.transpose()).ok_or(NoConvergence)?;
+    a = (&a + a.transpose()) * 0.5;
+    let eigen = SymmetricEigen::try_new(a, f64::EPSILON, 10_000).ok_or(NoConvergence)?;
+    let largest = eigen.eigenvalues.amax();
+    let mut order: Vec<usize> = (0..m).collect();
+    order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
+    let mut found = Vec::new();
+    for &i in order.iter().take(modes) {
+        let nu = eigen.eigenvalues[i];
+        if nu > NOTHING * largest {
+            let shape = l.tr_solve_lower_triangular(&eigen.eigenvectors.column(i)).ok_or(NoConvergence)?;
+            let mut whole = vec![0.0; n];
+            for (j, &at) in free.iter().enumerate() {
+                whole[at] = shape[j] * scale[j];
+            }
+            found.push(Mode { factor: 1.0 / nu, shape: whole });
+        }
+    }
+    Ok(found)
+}
+
+/// Columns of length `n`, one after the other.
+struct Columns {
+    n: usize,
+    data: Vec<f64>,
+}
+
+impl Columns {
+    fn new(n: usize) -> Self {
+        Self { n, data: Vec::new() }
+    }
+
+    fn count(&self) -> usize {
+        self.data.len() / self.n
+    }
+
+    fn view(&self) -> MatRef<'_, f64> {
+        MatRef::from_column_major_slice(&self.data, self.n, self.count())
+    }
+
+    /// self −= other × c
+    fn subtract(&mut self, other: &Columns, c: &DMatrix<f64>) {
+        let (n, count) = (self.n, self.count());
+        let target = MatMut::from_column_major_slice_mut(&mut self.data, n, count);
+        matmul(target, Accum::Add, other.view(), dense_view(c), -1.0, Par::Seq);
+    }
+
+    /// self × c
+    fn times(&self, c: &DMatrix<f64>) -> Columns {
+        let mut data = vec![0.0; self.n * c.ncols()];
+        let target = MatMut::from_column_major_slice_mut(&mut data, self.n, c.ncols());
+        matmul(target, Accum::Replace, self.view(), dense_view(c), 1.0, Par::Seq);
+        Columns { n: self.n, data }
+    }
+
+    /// selfᵀ × other
+    fn inner(&self, other: &Columns) -> DMatrix<f64> {
+        let mut c = DMatrix::zeros(self.count(), other.count());
+        let (rows, cols) = c.shape();
+        let target = MatMut::from_column_major_slice_mut(c.as_mut_slice(), rows, cols);
+        matmul(target, Accum::Replace, self.view().transpose(), other.view(), 1.0, Par::Seq);
+        c
+    }
+}
+
+fn dense_view(c: &DMatrix<f64>) -> MatRef<'_, f64> {
+    MatRef::from_column_major_slice(c.as_slice(), c.nrows(), c.ncols())
+}
+
+/// The iteration's state: M-orthonormal V, W = M V, T = Vᵀ (−Kg) V.
+struct Lanczos<'a, 'm> {
+    solver: &'a mut Solver<'m>,
+    axial: &'a [f64],
+    search: Search,
+    block: usize,
+    most: usize,
+    v: Columns,
+    w: Columns,
+    t: DMatrix<f64>,
+    rng: random::Rng,
+}
+
+/// Eigenpairs of T, ν descending.
+struct Ritz {
+    values: Vec<f64>,
+    vectors: DMatrix<f64>,
+}
+
+impl<'a, 'm> Lanczos<'a, 'm> {
+    fn new(solver: &'a mut Solver<'m>, axial: &'a [f64], search: Search) -> Self {
+        let n = solver.system().len();
+        let block = (search.modes + 1).clamp(2, 6);
+        Self {
+            block,
+            most: (8 * block).max(40),
+            v: Columns::new(n),
+            w: Columns::new(n),
+            t: DMatrix::zeros(0, 0),
+            rng: random::stream(0x6275_636b, 0, 0),
+            solver,
+            axial,
+            search,
+        }
+    }
+
+    fn run(mut self) -> Result<Vec<Mode>, NoConvergence> {
+        let (mut x, mut mx) = self.random_block();
+        for _ in 0..RESTARTS {
+            while self.v.count() + x.count() <= self.most {
+                let last = self.extend(x, mx);
+                let (z, g, remainder) = last;
+                let ritz = self.ritz();
+                if self.settled(&ritz, &remainder) {
+                    return Ok(self.shapes(&ritz));
+                }
+                (x, mx) = (z, g);
+                if x.count() == 0 {
+                    // The space is exhausted; look for what it missed.
+                    (x, mx) = self.random_block();
+                    if x.count() == 0 {
+                        return Ok(self.shapes(&ritz));
+                    }
+                }
+            }
+            self.restart();
+        }
+        Err(NoConvergence)
+    }
+
+    /// A random block, M-orthonormal and orthogonal to V, with its product with M.
+    fn random_block(&mut self) -> (Columns, Columns) {
+        let n = self.v.n;
+        let mut g = Columns { n, data: (0..n * self.block).map(|_| random::unit(&mut self.rng) - 0.5).collect() };
+        for column in g.data.chunks_mut(n) {
+            self.solver.system().hold_vector(column);
+        }
+        let mut z = Columns { n, data: g.data.clone() };
+        self.solver.solve(&mut z.data);
+        self.orthogonalise(&mut z, &mut g);
+        self.orthogonalise(&mut z, &mut g);
+        orthonormalise(&mut z, &mut g);
+        (z, g)
+    }
+
+    fn orthogonalise(&self, z: &mut Columns, g: &mut Columns) {
+        if self.v.count() > 0 {
+            let c = self.w.inner(z);
+            z.subtract(&self.v, &c);
+            g.subtract(&self.w, &c);
+        }
+    }
+
+    /// Appends the block, and gives the next one with its M-product, and R with (what was left over) = next × R.
+    fn extend(&mut self, x: Columns, mx: Columns) -> (Columns, Columns, DMatrix<f64>) {
+        let before = self.v.count();
+        let added = x.count();
+        let mut g = Columns { n: x.n, data: vec![0.0; x.data.len()] };
+        self.solver.minus_geometric(self.axial, &x.data, &mut g.data);
+        self.v.data.extend_from_slice(&x.data);
+        self.w.data.extend_from_slice(&mx.data);
+        let column = self.v.inner(&g);
+        let size = before + added;
+        let mut t = DMatrix::zeros(size, size);
+        t.view_mut((0, 0), (before, before)).copy_from(&self.t);
+        for j in 0..added {
+            for i in 0..size {
+                t[(i, before + j)] = column[(i, j)];
+                t[(before + j, i)] = column[(i, j)];
+            }
+        }
+        self.t = t;
+        let mut z = Columns { n: g.n, data: g.data.clone() };
+        self.solver.solve(&mut z.data);
+        z.subtract(&self.v, &column);
+        g.subtract(&self.w, &column);
+        self.orthogonalise(&mut z, &mut g);
+        let remainder = orthonormalise(&mut z, &mut g);
+        (z, g, remainder)
+    }
+
+    fn ritz(&self) -> Ritz {
+        let eigen = SymmetricEigen::new(self.t.clone());
+        let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
+        order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
+        let vectors = eigen.eigenvectors.select_columns(&order);
+        Ritz { values: order.iter().map(|&i| eigen.eigenvalues[i]).collect(), vectors }
+    }
+
+    /// Whether the wanted pairs have small residuals: those of the last block's remainder.
+    fn settled(&self, ritz: &Ritz, remainder: &DMatrix<f64>) -> bool {
+        let size = self.t.nrows();
+        if size < self.search.modes.min(size) + self.block {
+            return false;
+        }
+        let last = remainder.ncols();
+        let largest = ritz.values.iter().fold(0.0f64, |a, v| a.max(v.abs()));
+        (0..self.search.modes.min(size)).all(|i| {
+            let tail = ritz.vectors.view((size - last, i), (last, 1));
+            let residual = (remainder * tail).norm();
+            // Where there is no positive factor, ν tends to 0 and is judged beside the largest.
+            residual <= self.search.tolerance * ritz.values[i].max(NOTHING * largest)
+                || (ritz.values[i] <= NOTHING * largest && residual <= 1e-6 * largest)
+        })
+    }
+
+    fn shapes(&self, ritz: &Ritz) -> Vec<Mode> {
+        let largest = ritz.values.iter().fold(0.0f64, |a, v| a.max(v.abs()));
+        let wanted = ritz.values.iter().take(self.search.modes).filter(|v| **v > NOTHING * largest).count();
+        let shapes = self.v.times(&ritz.vectors.columns(0, wanted).into_owned());
+        (0..wanted)
+            .map(|i| Mode {
+                factor: 1.0 / ritz.values[i],
+                shape: shapes.data[i * shapes.n..(i + 1) * shapes.n].to_vec(),
+            })
+            .collect()
+    }
+
+    /// Keeps the best Ritz vectors.
+    fn restart(&mut self) {
+        let ritz = self.ritz();
+        let keep = (self.most / 3).max(self.search.modes + 2).min(self.v.count());
+        let s = ritz.vectors.columns(0, keep).into_owned();
+        self.v = self.v.times(&s);
+        self.w = self.w.times(&s);
+        self.t = DMatrix::from_diagonal(&DVector::from_column_slice(&ritz.values[..keep]));
+    }
+}
+
+/// Makes Z M-orthonormal (G = M Z), dropping what is not independent; Z before = Z after × the matrix returned.
+fn orthonormalise(z: &mut Columns, g: &mut Columns) -> DMatrix<f64> {
+    let gram = z.inner(g);
+    let gram = (&gram + gram.transpose()) * 0.5;
+    let eigen = SymmetricEigen::new(gram);
+    let largest = eigen.eigenvalues.amax();
+    let kept: Vec<usize> = (0..eigen.eigenvalues.len())
+        .filter(|&i| eigen.eigenvalues[i] > 1e-20 * largest.max(f64::MIN_POSITIVE) && eigen.eigenvalues[i] > 0.0)
+        .collect();
+    let vectors = eigen.eigenvectors.select_columns(&kept);
+    let roots: Vec<f64> = kept.iter().map(|&i| eigen.eigenvalues[i].sqrt()).collect();
+    let to_unit = DMatrix::from_fn(vectors.nrows(), kept.len(), |i, j| vectors[(i, j)] / roots[j]);
+    *z = z.times(&to_unit);
+    *g = g.times(&to_unit);
+    DMatrix::from_fn(kept.len(), vectors.nrows(), |i, j| roots[i] * vectors[(j, i)])
+}

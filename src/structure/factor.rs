@@ -1,0 +1,88 @@
+//! Cholesky factors of matrices with a [`System`]'s sparsity. Buffers are reused; nothing is allocated per factor.
+
+use super::system::{System, TooLarge};
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::LltError;
+use faer::sparse::SparseColMatRef;
+use faer::sparse::linalg::cholesky::supernodal::{self, SupernodalLltRef};
+use faer::{Conj, MatMut, Par};
+
+/// The matrix is not positive definite; the pivot of this unknown was the first that was not positive.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct NotPositive {
+    /// The unknown, in elimination order.
+    pub unknown: usize,
+}
+
+/// Room for one factor L of L Lᵀ and for solving with it.
+pub struct Factor {
+    values: Vec<f64>,
+    memory: MemBuffer,
+    columns: usize,
+}
+
+impl Factor {
+    /// Room for factors of the system, and to solve for up to `columns` right-hand sides at once.
+    ///
+    /// # Errors
+    /// [`TooLarge`].
+    pub fn new(system: &System, columns: usize) -> Result<Self, TooLarge> {
+        let symbolic = system.symbolic();
+        let scratch = supernodal::factorize_supernodal_numeric_llt_scratch::<u32, f64>(
+            symbolic,
+            Par::Seq,
+            Default::default(),
+        )
+        .or(symbolic.solve_in_place_scratch::<f64>(columns, Par::Seq));
+        let memory = MemBuffer::try_new(scratch).map_err(|_| TooLarge)?;
+        let mut values = Vec::new();
+        values.try_reserve_exact(symbolic.len_val()).map_err(|_| TooLarge)?;
+        values.resize(symbolic.len_val(), 0.0);
+        Ok(Self { values, memory, columns })
+    }
+
+    /// Factorises the matrix with these values.
+    ///
+    /// # Errors
+    /// [`NotPositive`] if it is not positive definite (or holds a NaN).
+    pub fn factorise(&mut self, system: &System, matrix: &[f64]) -> Result<(), NotPositive> {
+        let lower = SparseColMatRef::new(system.lower(), matrix);
+        let factored = supernodal::factorize_supernodal_numeric_llt(
+            &mut self.values,
+            lower,
+            Default::default(),
+            system.symbolic(),
+            Par::Seq,
+            MemStack::new(&mut self.memory),
+            Default::default(),
+        );
+        match factored {
+            Ok(_) => Ok(()),
+            Err(LltError::NonPositivePivot { index }) => Err(NotPositive { unknown: index }),
+        }
+    }
+
+    /// Solves in place for the columns of `rhs`, each `system.len()` long.
+    pub fn solve(&mut self, system: &System, rhs: &mut [f64]) {
+        let n = system.len();
+        let factor = SupernodalLltRef::new(system.symbolic(), &self.values);
+        for chunk in rhs.chunks_mut(n * self.columns) {
+            let columns = chunk.len() / n;
+            let matrix = MatMut::from_column_major_slice_mut(chunk, n, columns);
+            factor.solve_in_place_with_conj(Conj::No, matrix, Par::Seq, MemStack::new(&mut self.memory));
+        }
+    }
+
+    /// Calls `f(unknown, pivot)` with the squared diagonal entry of L for each unknown.
+    pub fn pivots(&self, system: &System, mut f: impl FnMut(usize, f64)) {
+        let symbolic = system.symbolic();
+        let factor = SupernodalLltRef::new(symbolic, &self.values);
+        for s in 0..symbolic.n_supernodes() {
+            let node = factor.supernode(s);
+            let block = node.val();
+            for j in 0..block.ncols() {
+                f(node.start() + j, block[(j, j)] * block[(j, j)]);
+            }
+        }
+    }
+}

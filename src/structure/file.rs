@@ -1,0 +1,296 @@
+//! The model file that `quadrille frame` reads, and the JSON it prints.
+
+use super::forces::Resultants;
+use super::frame::{FrameAnalysis, FrameError, FrameResult};
+use super::model::{FrameModel, FrameParts, LoadCase, Material, Member, ModelError, NodalLoad, Support, UniformLoad};
+use super::section::{Section, SectionError};
+use serde::{Deserialize, Serialize};
+
+/// Why a model file is refused.
+#[derive(Debug, thiserror::Error)]
+pub enum FileError {
+    /// Not JSON, a key missing, a wrong type.
+    #[error("{path}{source}")]
+    Json {
+        /// Where in the file, by keys; empty or ending in `: `.
+        path: String,
+        /// What is wrong, with line and column.
+        source: serde_json::Error,
+    },
+    /// Readable, but not a model.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// A section that cannot be.
+    #[error("section: {0}")]
+    Section(#[from] SectionError),
+    /// An analysis that does not exist.
+    #[error("analysis.order = {0}: must be 1 or 2")]
+    Order(u64),
+}
+
+#[derive(Deserialize)]
+struct File {
+    material: FileMaterial,
+    section: FileSection,
+    #[serde(default)]
+    shear_deformation: bool,
+    nodes: Vec<[f64; 3]>,
+    members: Vec<FileMember>,
+    #[serde(default)]
+    supports: Vec<FileSupport>,
+    #[serde(default)]
+    loads: FileLoads,
+    #[serde(default)]
+    analysis: FileAnalysis,
+}
+
+#[derive(Deserialize)]
+struct FileMaterial {
+    #[serde(rename = "E")]
+    e: f64,
+    #[serde(rename = "G")]
+    g: f64,
+    density: f64,
+    fy: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+enum FileSection {
+    Properties(Properties),
+    Box { width: f64, height: f64, thickness: f64 },
+    Round { diameter: f64 },
+    Tube { diameter: f64, thickness: f64 },
+}
+
+#[derive(Deserialize)]
+#[expect(non_snake_case, reason = "the names of the file format, which are the engineer's symbols")]
+struct Properties {
+    A: f64,
+    Iy: f64,
+    Iz: f64,
+    J: f64,
+    Wy: f64,
+    Wz: f64,
+    #[serde(default)]
+    Asy: f64,
+    #[serde(default)]
+    Asz: f64,
+}
+
+#[derive(Deserialize)]
+struct FileMember {
+    start: u32,
+    end: u32,
+    up: [f64; 3],
+}
+
+#[derive(Deserialize)]
+struct FileSupport {
+    node: u32,
+    fixed: [bool; 6],
+}
+
+#[derive(Deserialize, Default)]
+#[serde(default)]
+struct FileLoads {
+    nodal: Vec<FileNodal>,
+    member_uniform: Vec<FileUniform>,
+    gravity: f64,
+}
+
+#[derive(Deserialize)]
+struct FileNodal {
+    node: u32,
+    #[serde(default)]
+    force: [f64; 3],
+    #[serde(default)]
+    moment: [f64; 3],
+}
+
+#[derive(Deserialize)]
+struct FileUniform {
+    member: u32,
+    force_per_length: [f64; 3],
+}
+
+#[derive(Deserialize)]
+#[serde(default)]
+struct FileAnalysis {
+    order: u64,
+    buckling_modes: u32,
+}
+
+impl Default for FileAnalysis {
+    fn default() -> Self {
+        Self { order: 1, buckling_modes: 0 }
+    }
+}
+
+/// Reads a model and what to analyse from JSON text. Keys it does not know are ignored.
+///
+/// # Errors
+/// See [`FileError`].
+pub fn read(text: &str) -> Result<(FrameModel, FrameAnalysis), FileError> {
+    let mut deserializer = serde_json::Deserializer::from_str(text);
+    let file: File = match serde_path_to_error::deserialize(&mut deserializer) {
+        Ok(file) => file,
+        Err(error) => {
+            let path = error.path().to_string();
+            let path = if path == "." { String::new() } else { format!("{path}: ") };
+            return Err(FileError::Json { path, source: error.into_inner() });
+        }
+    };
+    deserializer.end().map_err(|source| FileError::Json { path: String::new(), source })?;
+    let order = match file.analysis.order {
+        1 => 1,
+        2 => 2,
+        other => return Err(FileError::Order(other)),
+    };
+    let analysis = FrameAnalysis { order, buckling_modes: file.analysis.buckling_modes as usize };
+    Ok((model(file)?, analysis))
+}
+
+fn model(file: File) -> Result<FrameModel, FileError> {
+    let section = match file.section {
+        FileSection::Box { width, height, thickness } => Section::rectangular_hollow(width, height, thickness)?,
+        FileSection::Round { diameter } => Section::round(diameter)?,
+        FileSection::Tube { diameter, thickness } => Section::tube(diameter, thickness)?,
+        FileSection::Properties(p) => Section {
+            area: p.A,
+            iy: p.Iy,
+            iz: p.Iz,
+            j: p.J,
+            wy: p.Wy,
+            wz: p.Wz,
+            asy: p.Asy,
+            asz: p.Asz,
+            shear: None,
+        },
+    };
+    section.check()?;
+    let nodal = |l: &FileNodal| {
+        let ([fx, fy, fz], [mx, my, mz]) = (l.force, l.moment);
+        NodalLoad { node: l.node, load: [fx, fy, fz, mx, my, mz] }
+    };
+    let loads = LoadCase {
+        nodal: file.loads.nodal.iter().map(nodal).collect(),
+        uniform: file
+            .loads
+            .member_uniform
+            .iter()
+            .map(|l| UniformLoad { member: l.member, force_per_length: l.force_per_length })
+            .collect(),
+        gravity: file.loads.gravity,
+    };
+    let m = &file.material;
+    Ok(FrameModel::new(FrameParts {
+        nodes: file.nodes,
+        members: file
+            .members
+            .iter()
+            .map(|m| Member { start: m.start, end: m.end, up: m.up, section: 0 })
+            .collect(),
+        sections: vec![section],
+        material: Material { youngs_modulus: m.e, shear_modulus: m.g, density: m.density, strength: m.fy },
+        shear_deformation: file.shear_deformation,
+        supports: file.supports.iter().map(|s| Support { node: s.node, fixed: s.fixed }).collect(),
+        load_cases: vec![loads],
+    })?)
+}
+
+#[derive(Serialize)]
+struct Answer<'a> {
+    displacements: Vec<NodeValues<'a>>,
+    reactions: Vec<Reaction<'a>>,
+    member_forces: Vec<EndForces>,
+    max_displacement: f64,
+    max_displacement_node: u32,
+    total_reaction: [f64; 3],
+    buckling_factors: &'a [f64],
+    utilisation: f64,
+    utilisation_member: u32,
+    utilisation_at_member_ends: f64,
+    utilisation_with_inner: f64,
+    utilisation_von_mises: f64,
+}
+
+#[derive(Serialize)]
+struct NodeValues<'a> {
+    node: u32,
+    u: &'a [f64; 6],
+}
+
+#[derive(Serialize)]
+struct Reaction<'a> {
+    node: u32,
+    r: &'a [Option<f64>; 6],
+}
+
+#[derive(Serialize)]
+#[expect(non_snake_case, reason = "the names of the file format, which are the engineer's symbols")]
+struct EndForces {
+    member: u32,
+    end: &'static str,
+    N: f64,
+    Vy: f64,
+    Vz: f64,
+    Mt: f64,
+    My: f64,
+    Mz: f64,
+}
+
+impl EndForces {
+    fn new(member: usize, end: &'static str, r: &Resultants) -> Self {
+        Self { member: member as u32, end, N: r.n, Vy: r.vy, Vz: r.vz, Mt: r.mt, My: r.my, Mz: r.mz }
+    }
+}
+
+/// The JSON of an answer, for all nodes and members; one line.
+pub fn answer(result: &FrameResult) -> serde_json::Result<Vec<u8>> {
+    let (utilisation, member) = result.utilisation();
+    let answer = Answer {
+        displacements: result
+            .displacements
+            .iter()
+            .enumerate()
+            .map(|(n, u)| NodeValues { node: n as u32, u })
+            .collect(),
+        reactions: result.reactions.iter().map(|(n, r)| Reaction { node: n.0, r }).collect(),
+        member_forces: result
+            .member_forces
+            .iter()
+            .enumerate()
+            .flat_map(|(m, f)| [EndForces::new(m, "start", &f.start), EndForces::new(m, "end", &f.end)])
+            .collect(),
+        max_displacement: result.max_displacement.0,
+        max_displacement_node: result.max_displacement.1.0,
+        total_reaction: result.total_reaction,
+        buckling_factors: &result.buckling_factors,
+        utilisation,
+        utilisation_member: member.0,
+        utilisation_at_member_ends: result.worst(|u| u.ends).0,
+        utilisation_with_inner: result.worst(|u| u.inner).0,
+        utilisation_von_mises: result.worst(|u| u.von_mises).0,
+    };
+    let mut bytes = serde_json::to_vec(&answer)?;
+    bytes.push(b'\n');
+    Ok(bytes)
+}
+
+/// The JSON of a failed analysis: `error` is `singular`, `unstable`, `not finite` or `failed`.
+pub fn failure(error: &FrameError) -> serde_json::Value {
+    let (kind, motion) = match error {
+        FrameError::Singular(motion) => ("singular", Some(motion)),
+        FrameError::Unstable(motion) => ("unstable", Some(motion)),
+        FrameError::NotFinite => ("not finite", None),
+        FrameError::NoConvergence | FrameError::TooLarge(_) => ("failed", None),
+    };
+    let mut value = serde_json::json!({ "error": kind, "message": error.to_string() });
+    if let Some(motion) = motion {
+        value["node"] = motion.node.0.into();
+        value["direction"] = serde_json::json!(motion.direction);
+        value["motion"] = motion.motion.to_vec().into();
+    }
+    value
+}

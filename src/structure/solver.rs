@@ -1,0 +1,297 @@
+//! One model, assembled and factorised: first order, second order, axial forces, positive definiteness.
+//!
+//! Everything that does not depend on the sections (numbering, sparsity, symbolic factor, buffers) is made once by
+//! [`Solver::new`]; [`Solver::set_sections`] is what a new height costs.
+
+use super::element::{self, EndActions, Ends, Stiffness};
+use super::factor::{Factor, NotPositive};
+use super::mechanism::{self, FreeMotion};
+use super::model::FrameModel;
+use super::section::Section;
+use super::system::{System, TooLarge};
+use nalgebra::Vector3;
+
+/// How many right-hand sides are solved together.
+pub const COLUMNS: usize = 8;
+
+/// A load combination: load case by index, times a factor.
+pub type Combination = Vec<(usize, f64)>;
+
+/// A model with its factorised stiffness. Vectors are in elimination order, `6 × nodes` long.
+pub struct Solver<'m> {
+    model: &'m FrameModel,
+    system: System,
+    sections: Vec<Section>,
+    stiffness: Vec<Stiffness>,
+    matrix: Vec<f64>,
+    factor: Factor,
+    /// K + s Kg and its factor.
+    shifted: Vec<f64>,
+    shifted_factor: Option<Factor>,
+}
+
+/// Why an iteration in second order gave no answer.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Unstable {
+    /// K + Kg is not positive definite.
+    PastCritical,
+    /// The axial forces did not settle.
+    NoConvergence,
+}
+
+impl<'m> Solver<'m> {
+    /// Prepares the model; no stiffness yet.
+    ///
+    /// # Errors
+    /// [`TooLarge`].
+    pub fn new(model: &'m FrameModel) -> Result<Self, TooLarge> {
+        let system = System::new(model)?;
+        let factor = Factor::new(&system, COLUMNS)?;
+        Ok(Self {
+            model,
+            sections: Vec::new(),
+            stiffness: Vec::with_capacity(model.members().len()),
+            matrix: vec![0.0; system.values()],
+            shifted: Vec::new(),
+            shifted_factor: None,
+            factor,
+            system,
+        })
+    }
+
+    /// The model.
+    pub fn model(&self) -> &'m FrameModel {
+        self.model
+    }
+
+    /// Its equation system.
+    pub fn system(&self) -> &System {
+        &self.system
+    }
+
+    /// The sections in use.
+    pub fn sections(&self) -> &[Section] {
+        &self.sections
+    }
+
+    /// Stiffness numbers of each member.
+    pub fn stiffness(&self) -> &[Stiffness] {
+        &self.stiffness
+    }
+
+    /// Assembles and factorises the stiffness with these sections (one for each of the model's).
+    ///
+    /// # Errors
+    /// The motion that costs (next to) nothing, if there is one.
+    pub fn set_sections(&mut self, sections: &[Section]) -> Result<(), FreeMotion> {
+        self.sections.clear();
+        self.sections.extend_from_slice(sections);
+        self.assemble();
+        let factored = self.factor.factorise(&self.system, &self.matrix);
+        let suspicious = match factored {
+            Ok(()) => mechanism::suspicious(&self.system, &self.matrix, &self.factor),
+            Err(NotPositive { .. }) => true,
+        };
+        if !suspicious {
+            return Ok(());
+        }
+        match mechanism::free_motion(self.model, &self.system, &self.stiffness, &self.matrix, &mut self.factor) {
+            Some(motion) => Err(motion),
+            // The search for a free motion has used the factor's room.
+            None => self.factor.factorise(&self.system, &self.matrix).map_err(|e| {
+                mechanism::named(&self.system, e.unknown)
+            }),
+        }
+    }
+
+    fn assemble(&mut self) {
+        self.matrix.fill(0.0);
+        self.stiffness.clear();
+        for (m, axes) in self.model.axes().iter().enumerate() {
+            let stiffness = Stiffness::of_member(self.model, &self.sections, m);
+            self.system.add(&mut self.matrix, m, &stiffness.global(axes), 1.0);
+            self.stiffness.push(stiffness);
+        }
+        self.system.hold(&mut self.matrix, 1.0);
+    }
+
+    /// The uniform load on each member (N/m, global) of a combination, self weight included.
+    pub fn member_loads(&self, combination: &[(usize, f64)], loads: &mut Vec<Vector3<f64>>) {
+        loads.clear();
+        loads.resize(self.model.members().len(), Vector3::zeros());
+        let density = self.model.material().density;
+        for &(case, factor) in combination {
+            let case = &self.model.load_cases()[case];
+            for load in &case.uniform {
+                loads[load.member as usize] += Vector3::from(load.force_per_length) * factor;
+            }
+            if case.gravity != 0.0 {
+                let weight = factor * case.gravity * density;
+                for (load, member) in loads.iter_mut().zip(self.model.members()) {
+                    load.z -= weight * self.sections[member.section as usize].area;
+                }
+            }
+        }
+    }
+
+    /// The load vector of a combination with these member loads, held unknowns included.
+    pub fn load_vector(&self, combination: &[(usize, f64)], member_loads: &[Vector3<f64>], f: &mut [f64]) {
+        f.fill(0.0);
+        for &(case, factor) in combination {
+            for load in &self.model.load_cases()[case].nodal {
+                let first = self.system.first(load.node);
+                for (d, value) in load.load.iter().enumerate() {
+                    f[first + d] += factor * value;
+                }
+            }
+        }
+        for ((q, axes), slot) in member_loads.iter().zip(self.model.axes()).zip(self.system.slots()) {
+            let (force, moment) = element::uniform_load(axes, q);
+            for d in 0..3 {
+                f[slot.start + d] += force[d];
+                f[slot.end + d] += force[d];
+                f[slot.start + 3 + d] += moment[d];
+                f[slot.end + 3 + d] -= moment[d];
+            }
+        }
+    }
+
+    /// Solves K u = f in place, for one or several columns.
+    pub fn solve(&mut self, rhs: &mut [f64]) {
+        for column in rhs.chunks_mut(self.system.len()) {
+            self.system.hold_vector(column);
+        }
+        self.factor.solve(&self.system, rhs);
+    }
+
+    /// First order: K u = f, refined once with the residual of the elements' own end forces.
+    pub fn first_order(&mut self, f: &[f64]) -> Vec<f64> {
+        let mut u = f.to_vec();
+        self.solve(&mut u);
+        let mut residual = f.to_vec();
+        for (u, r) in u.chunks(self.system.len()).zip(residual.chunks_mut(self.system.len())) {
+            self.subtract_forces(u, None, r);
+        }
+        self.solve(&mut residual);
+        for (u, correction) in u.iter_mut().zip(&residual) {
+            *u += correction;
+        }
+        u
+    }
+
+    /// r −= (K + Kg(N)) u, element by element.
+    pub fn subtract_forces(&self, u: &[f64], axial: Option<&[f64]>, r: &mut [f64]) {
+        for (m, (axes, slot)) in self.model.axes().iter().zip(self.system.slots()).enumerate() {
+            let ends = Ends::read(u, slot.start, slot.end).local(axes);
+            let mut actions = self.stiffness[m].apply_local(&ends);
+            if let Some(axial) = axial {
+                let g = element::geometric_actions(&Vector3::x(), axes.length, axial[m], &ends);
+                actions.force += g.force;
+                actions.m1 += g.m1;
+                actions.m2 += g.m2;
+            }
+            let back = |v: &Vector3<f64>| axes.x * v.x + axes.y * v.y + axes.z * v.z;
+            let actions =
+                EndActions { force: back(&actions.force), m1: back(&actions.m1), m2: back(&actions.m2) };
+            scatter(&actions, slot.start, slot.end, -1.0, r);
+        }
+    }
+
+    /// The mean axial force N of each member (tension positive): EA/L times the linear elongation.
+    pub fn axial_forces(&self, u: &[f64], axial: &mut Vec<f64>) {
+        axial.clear();
+        let members = self.model.axes().iter().zip(self.system.slots()).zip(&self.stiffness);
+        axial.extend(members.map(|((axes, slot), k)| {
+            let (s, e) = (slot.start, slot.end);
+            let stretch = Vector3::new(u[e] - u[s], u[e + 1] - u[s + 1], u[e + 2] - u[s + 2]);
+            k.axial * axes.x.dot(&stretch)
+        }));
+    }
+
+    /// y = −Kg(N) x, for several columns, without a matrix.
+    pub fn minus_geometric(&self, axial: &[f64], x: &[f64], y: &mut [f64]) {
+        let n = self.system.len();
+        y.fill(0.0);
+        for (x, y) in x.chunks(n).zip(y.chunks_mut(n)) {
+            for ((axes, slot), &tension) in self.model.axes().iter().zip(self.system.slots()).zip(axial) {
+                let ends = Ends::read(x, slot.start, slot.end);
+                let actions = element::geometric_actions(&axes.x, axes.length, tension, &ends);
+                scatter(&actions, slot.start, slot.end, -1.0, y);
+            }
+            self.system.hold_vector(y);
+        }
+    }
+
+    /// Factorises K + s Kg(N) beside K.
+    ///
+    /// # Errors
+    /// [`NotPositive`] if it is not positive definite, that is (with N fixed) if s is past the critical factor.
+    pub fn factorise_shifted(&mut self, axial: &[f64], s: f64) -> Result<(), NotPositive> {
+        if self.shifted_factor.is_none() {
+            // A factor of the same size as the one we have: if that fitted, running out here is as if not positive.
+            self.shifted_factor = Factor::new(&self.system, COLUMNS).ok();
+        }
+        let Some(factor) = &mut self.shifted_factor else { return Err(NotPositive { unknown: 0 }) };
+        self.shifted.clear();
+        self.shifted.extend_from_slice(&self.matrix);
+        for (m, axes) in self.model.axes().iter().enumerate() {
+            self.system.add(&mut self.shifted, m, &element::geometric(axes), s * axial[m]);
+        }
+        self.system.hold(&mut self.shifted, 1.0);
+        factor.factorise(&self.system, &self.shifted)
+    }
+
+    /// Solves (K + s Kg) x = rhs in place with the last shifted factor.
+    pub fn solve_shifted(&mut self, rhs: &mut [f64]) {
+        for column in rhs.chunks_mut(self.system.len()) {
+            self.system.hold_vector(column);
+        }
+        if let Some(factor) = &mut self.shifted_factor {
+            factor.solve(&self.system, rhs);
+        }
+    }
+
+    /// Second order, factor by factor: (K + Kg(N)) u = f with N of u, from the first-order N, until N changes by no
+    /// more than `tolerance` × max |N|.
+    ///
+    /// # Errors
+    /// [`Unstable`] if K + Kg is not positive definite, or N does not settle.
+    pub fn second_order(&mut self, f: &[f64], first: &[f64], tolerance: f64) -> Result<Vec<f64>, Unstable> {
+        const MOST: usize = 200;
+        let mut axial = Vec::new();
+        self.axial_forces(first, &mut axial);
+        let mut next = Vec::new();
+        for _ in 0..MOST {
+            self.factorise_shifted(&axial, 1.0).map_err(|_| Unstable::PastCritical)?;
+            let mut u = f.to_vec();
+            self.solve_shifted(&mut u);
+            let mut residual = f.to_vec();
+            self.subtract_forces(&u, Some(&axial), &mut residual);
+            self.solve_shifted(&mut residual);
+            for (u, correction) in u.iter_mut().zip(&residual) {
+                *u += correction;
+            }
+            self.axial_forces(&u, &mut next);
+            let largest = next.iter().fold(0.0f64, |a, n| a.max(n.abs()));
+            let change = next.iter().zip(&axial).fold(0.0f64, |a, (n, o)| a.max((n - o).abs()));
+            std::mem::swap(&mut axial, &mut next);
+            if change <= tolerance * largest {
+                return match self.factorise_shifted(&axial, 1.0) {
+                    Ok(()) => Ok(u),
+                    Err(_) => Err(Unstable::PastCritical),
+                };
+            }
+        }
+        Err(Unstable::NoConvergence)
+    }
+}
+
+/// Adds `factor` × an element's end actions to a vector.
+fn scatter(actions: &EndActions, start: usize, end: usize, factor: f64, y: &mut [f64]) {
+    for d in 0..3 {
+        y[start + d] += factor * actions.force[d];
+        y[end + d] -= factor * actions.force[d];
+        y[start + 3 + d] += factor * actions.m1[d];
+        y[end + 3 + d] += factor * actions.m2[d];
+    }
+}

@@ -1,0 +1,304 @@
+//! The equation system of a model: numbering, sparsity, symbolic factor. Made once for a pattern, used for every
+//! height, load case and for K + Kg.
+//!
+//! Every node keeps its six unknowns; held ones are zeroed out of the matrix with 1 on the diagonal. So the matrix
+//! consists of 6 × 6 blocks, a member's place in it is three numbers, and all vectors have `6 × nodes` entries in
+//! *elimination order*: unknown d of node n is entry `first(n) + d`.
+
+use super::element::Blocks;
+use super::model::FrameModel;
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
+use faer::sparse::linalg::cholesky::{simplicial, supernodal};
+use nalgebra::Matrix3;
+
+/// Unknowns of a node.
+pub const DOFS: usize = 6;
+const BLOCK: usize = DOFS * DOFS;
+
+/// The model is too large for the memory or the index type.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
+#[error("the model is too large to be factorised")]
+pub struct TooLarge;
+
+/// Where a member's blocks are.
+#[derive(Clone, Copy, Debug)]
+pub struct Slot {
+    /// First unknown of its start.
+    pub start: usize,
+    /// First unknown of its end.
+    pub end: usize,
+    /// Index, among the blocks of the earlier node's column, of the block that couples the two.
+    below: u32,
+}
+
+/// Numbering, sparsity and symbolic factor.
+#[derive(Debug)]
+pub struct System {
+    nodes: usize,
+    position: Vec<u32>,
+    block_start: Vec<usize>,
+    lower: SymbolicSparseColMat<u32>,
+    slots: Vec<Slot>,
+    held: Vec<bool>,
+    symbolic: supernodal::SymbolicSupernodalCholesky<u32>,
+}
+
+impl System {
+    /// Numbers the unknowns by approximate minimum degree on the node graph, and prepares the factor.
+    ///
+    /// # Errors
+    /// [`TooLarge`].
+    pub fn new(model: &FrameModel) -> Result<Self, TooLarge> {
+        let nodes = model.nodes().len();
+        let position = elimination_order(model)?;
+        let at = |n: u32| position[n as usize];
+        let pairs: Vec<(u32, u32)> = model
+            .members()
+            .iter()
+            .map(|m| (at(m.start).min(at(m.end)), at(m.start).max(at(m.end))))
+            .collect();
+        let mut sorted = pairs.clone();
+        sorted.sort_unstable();
+        let (block_start, blocks) = block_columns(nodes, &sorted);
+        let (col_ptr, row_idx) = expand(&block_start, &blocks)?;
+        let n = DOFS * nodes;
+        let lower = SymbolicSparseColMat::new_checked(n, n, col_ptr, None, row_idx);
+        let symbolic = symbolic_factor(nodes, &sorted)?;
+        let mut held = vec![false; DOFS * nodes];
+        for (n, fixed) in model.fixed().iter().enumerate() {
+            let first = DOFS * position[n] as usize;
+            held[first..first + DOFS].copy_from_slice(fixed);
+        }
+        let slots = model
+            .members()
+            .iter()
+            .zip(&pairs)
+            .map(|(m, &(early, late))| {
+                let column = &blocks[block_start[early as usize]..block_start[early as usize + 1]];
+                let below = column.partition_point(|&row| row < late) as u32;
+                Slot { start: DOFS * at(m.start) as usize, end: DOFS * at(m.end) as usize, below }
+            })
+            .collect();
+        Ok(Self { nodes, position, block_start, lower, slots, held, symbolic })
+    }
+
+    /// Number of unknowns, held ones included.
+    pub fn len(&self) -> usize {
+        DOFS * self.nodes
+    }
+
+    /// Where node `n`'s six unknowns begin.
+    pub fn first(&self, n: u32) -> usize {
+        DOFS * self.position[n as usize] as usize
+    }
+
+    /// The node and direction (0 … 5) of an unknown.
+    pub fn unknown(&self, index: usize) -> (u32, usize) {
+        let position = (index / DOFS) as u32;
+        let node = self.position.iter().position(|&p| p == position).unwrap_or(0);
+        (node as u32, index % DOFS)
+    }
+
+    /// Places of all members.
+    pub fn slots(&self) -> &[Slot] {
+        &self.slots
+    }
+
+    /// Which unknowns are held.
+    pub fn held(&self) -> &[bool] {
+        &self.held
+    }
+
+    /// The symbolic factor.
+    pub fn symbolic(&self) -> &supernodal::SymbolicSupernodalCholesky<u32> {
+        &self.symbolic
+    }
+
+    /// Sparsity of the lower triangle (with whole diagonal blocks).
+    pub fn lower(&self) -> SymbolicSparseColMatRef<'_, u32> {
+        self.lower.as_ref()
+    }
+
+    /// Number of stored values of a matrix.
+    pub fn values(&self) -> usize {
+        BLOCK * self.block_start[self.nodes]
+    }
+
+    /// Where in the values the diagonal entry of an unknown is.
+    pub fn diagonal(&self, unknown: usize) -> usize {
+        self.entry(unknown / DOFS, 0, unknown % DOFS, unknown % DOFS)
+    }
+
+    fn entry(&self, column: usize, block: usize, row: usize, col: usize) -> usize {
+        let start = self.block_start[column];
+        let height = DOFS * (self.block_start[column + 1] - start);
+        BLOCK * start + col * height + block * DOFS + row
+    }
+
+    /// Adds a member's blocks × `factor` to a matrix's values.
+    pub fn add(&self, values: &mut [f64], member: usize, blocks: &Blocks, factor: f64) {
+        let Slot { start, end, below } = self.slots[member];
+        let b = Blocks {
+            d: blocks.d * factor,
+            s: blocks.s * factor,
+            p: blocks.p * factor,
+            q: blocks.q * factor,
+        };
+        let turned = b.s.transpose();
+        self.add_block(values, start / DOFS, 0, [&b.d, &b.s, &turned, &b.p]);
+        self.add_block(values, end / DOFS, 0, [&b.d, &-b.s, &-turned, &b.p]);
+        // Row block = later node, column block = earlier one.
+        let (d, q) = (-b.d, b.q);
+        if start < end {
+            self.add_block(values, start / DOFS, below as usize, [&d, &-b.s, &turned, &q]);
+        } else {
+            self.add_block(values, end / DOFS, below as usize, [&d, &b.s, &-turned, &q]);
+        }
+    }
+
+    /// Adds [[uu, ur], [ru, rr]] to one 6 × 6 block.
+    fn add_block(&self, values: &mut [f64], column: usize, block: usize, parts: [&Matrix3<f64>; 4]) {
+        let start = self.block_start[column];
+        let height = DOFS * (self.block_start[column + 1] - start);
+        let [uu, ur, ru, rr] = parts;
+        for (half, (top, bottom)) in [(uu, ru), (ur, rr)].into_iter().enumerate() {
+            for c in 0..3 {
+                let from = BLOCK * start + (3 * half + c) * height + block * DOFS;
+                let target = &mut values[from..from + DOFS];
+                for r in 0..3 {
+                    target[r] += top[(r, c)];
+                    target[r + 3] += bottom[(r, c)];
+                }
+            }
+        }
+    }
+
+    /// Takes the held unknowns out of a matrix: rows and columns zero, diagonal `diagonal`.
+    pub fn hold(&self, values: &mut [f64], diagonal: f64) {
+        let row_idx = self.lower.row_idx();
+        for column in 0..self.nodes {
+            let start = self.block_start[column];
+            let height = DOFS * (self.block_start[column + 1] - start);
+            for c in 0..DOFS {
+                let from = BLOCK * start + c * height;
+                let rows = &row_idx[from..from + height];
+                let col_held = self.held[DOFS * column + c];
+                for (value, &row) in values[from..from + height].iter_mut().zip(rows) {
+                    if col_held || self.held[row as usize] {
+                        *value = 0.0;
+                    }
+                }
+                if col_held {
+                    values[from + c] = diagonal;
+                }
+            }
+        }
+    }
+
+    /// Sets the held entries of a vector to zero.
+    pub fn hold_vector(&self, vector: &mut [f64]) {
+        for (value, &held) in vector.iter_mut().zip(&self.held) {
+            if held {
+                *value = 0.0;
+            }
+        }
+    }
+}
+
+/// For each node, its place in the elimination order.
+fn elimination_order(model: &FrameModel) -> Result<Vec<u32>, TooLarge> {
+    let nodes = model.nodes().len();
+    let mut edges: Vec<(i64, i64)> = Vec::with_capacity(2 * model.members().len());
+    for member in model.members() {
+        edges.push((i64::from(member.start), i64::from(member.end)));
+        edges.push((i64::from(member.end), i64::from(member.start)));
+    }
+    edges.sort_unstable();
+    let mut starts = vec![0i64; nodes + 1];
+    for &(column, _) in &edges {
+        starts[column as usize + 1] += 1;
+    }
+    for n in 0..nodes {
+        starts[n + 1] += starts[n];
+    }
+    let rows: Vec<i64> = edges.iter().map(|e| e.1).collect();
+    let control = amd::Control::default();
+    let (order, _, _) = amd::order(nodes as i64, &starts, &rows, &control).map_err(|_| TooLarge)?;
+    let mut position = vec![0u32; nodes];
+    for (place, node) in order.into_iter().enumerate() {
+        position[node as usize] = place as u32;
+    }
+    Ok(position)
+}
+
+/// Column starts and row numbers of the lower block triangle, diagonal first, rows ascending.
+fn block_columns(nodes: usize, sorted: &[(u32, u32)]) -> (Vec<usize>, Vec<u32>) {
+    let mut starts = Vec::with_capacity(nodes + 1);
+    let mut rows = Vec::with_capacity(nodes + sorted.len());
+    let mut pairs = sorted.iter().peekable();
+    for column in 0..nodes as u32 {
+        starts.push(rows.len());
+        rows.push(column);
+        while let Some(&(_, row)) = pairs.next_if(|p| p.0 == column) {
+            rows.push(row);
+        }
+    }
+    starts.push(rows.len());
+    (starts, rows)
+}
+
+/// The same by unknowns.
+fn expand(block_start: &[usize], blocks: &[u32]) -> Result<(Vec<u32>, Vec<u32>), TooLarge> {
+    let total = BLOCK * blocks.len();
+    u32::try_from(total).map_err(|_| TooLarge)?;
+    let mut col_ptr = Vec::with_capacity(DOFS * block_start.len());
+    let mut row_idx = Vec::with_capacity(total);
+    for column in block_start.windows(2) {
+        for _ in 0..DOFS {
+            col_ptr.push(row_idx.len() as u32);
+            for &block in &blocks[column[0]..column[1]] {
+                row_idx.extend((0..DOFS as u32).map(|r| DOFS as u32 * block + r));
+            }
+        }
+    }
+    col_ptr.push(row_idx.len() as u32);
+    Ok((col_ptr, row_idx))
+}
+
+fn symbolic_factor(
+    nodes: usize,
+    sorted: &[(u32, u32)],
+) -> Result<supernodal::SymbolicSupernodalCholesky<u32>, TooLarge> {
+    let n = DOFS * nodes;
+    // faer reads the upper triangle here: column = later node, rows = earlier ones and itself.
+    let mut upper: Vec<(u32, u32)> = sorted.iter().map(|&(early, late)| (late, early)).collect();
+    upper.sort_unstable();
+    let mut col_ptr = Vec::with_capacity(n + 1);
+    let mut row_idx: Vec<u32> = Vec::with_capacity(BLOCK * (nodes + upper.len()));
+    let mut pairs = upper.iter().peekable();
+    for column in 0..nodes as u32 {
+        let mut above = Vec::new();
+        while let Some(&(_, row)) = pairs.next_if(|p| p.0 == column) {
+            above.push(row);
+        }
+        for c in 0..DOFS as u32 {
+            col_ptr.push(row_idx.len() as u32);
+            for &block in &above {
+                row_idx.extend((0..DOFS as u32).map(|r| DOFS as u32 * block + r));
+            }
+            row_idx.extend((0..=c).map(|r| DOFS as u32 * column + r));
+        }
+    }
+    col_ptr.push(row_idx.len() as u32);
+    let pattern = SymbolicSparseColMatRef::new_checked(n, n, &col_ptr, None, &row_idx);
+    let scratch = simplicial::prefactorize_symbolic_cholesky_scratch::<u32>(n, row_idx.len())
+        .or(supernodal::factorize_supernodal_symbolic_cholesky_scratch::<u32>(n));
+    let mut memory = MemBuffer::try_new(scratch).map_err(|_| TooLarge)?;
+    let stack = MemStack::new(&mut memory);
+    let mut tree = vec![0i32; n];
+    let mut counts = vec![0u32; n];
+    let tree = simplicial::prefactorize_symbolic_cholesky(&mut tree, &mut counts, pattern, stack);
+    supernodal::factorize_supernodal_symbolic_cholesky(pattern, tree, &counts, stack, Default::default())
+        .map_err(|_| TooLarge)
+}
