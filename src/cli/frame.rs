@@ -1,16 +1,22 @@
 //! `quadrille frame`: the frame solver alone, on any model.
 
-use clap::{Args, ValueEnum};
+use super::{CliError, Console, exit};
+use clap::ValueEnum;
 use quadrille::structure::file;
 use quadrille::structure::{FrameModel, FrameResult, frame};
-use std::io::Write;
+use std::fmt::Write as _;
+use std::io::{self, Write as _};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Analyses a 3D frame: displacements, reactions, member forces, buckling factors, utilisation.
-#[derive(Args)]
-pub struct FrameArgs {
-    /// The model: nodes, members, section, supports, loads, what to analyse (JSON, SI units).
+/// Analyse any 3D frame: displacements, reactions, member forces, buckling factors, utilisation.
+///
+/// The model is JSON in SI units: material, section, nodes, members, supports, loads, and the analysis wanted. A
+/// mechanism or a structure past its critical load is named, by node and direction, with exit code 1.
+#[derive(clap::Args)]
+pub struct Args {
+    /// The model.
+    #[arg(value_name = "MODEL.json")]
     model: PathBuf,
     /// What to print.
     #[arg(long, value_enum, default_value_t = Format::Text)]
@@ -19,46 +25,37 @@ pub struct FrameArgs {
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Format {
-    /// All nodes and members, one line of JSON.
-    Json,
     /// A summary to read.
     Text,
+    /// One line of JSON with all nodes and members.
+    Json,
 }
 
 /// Runs the command.
-pub fn run(args: &FrameArgs) -> ExitCode {
+pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     let name = args.model.display();
-    let read = std::fs::read_to_string(&args.model).map_err(|e| e.to_string());
-    let (model, analysis) = match read.and_then(|text| file::read(&text).map_err(|e| e.to_string())) {
-        Ok(read) => read,
-        Err(message) => {
-            eprintln!("error: {name}: {message}");
-            return ExitCode::from(2);
-        }
-    };
+    let text = std::fs::read_to_string(&args.model).map_err(CliError::read(&args.model))?;
+    let (model, analysis) = file::read(&text).map_err(|e| CliError::Input(format!("{name}: {e}")))?;
     let answer = frame(&model, &analysis);
-    let text = match (&answer, args.format) {
-        (Ok(result), Format::Json) => file::answer(result).map_err(|e| e.to_string()),
-        (Ok(result), Format::Text) => Ok(summary(&model, result).into_bytes()),
-        (Err(error), Format::Json) => Ok(format!("{}\n", file::failure(error)).into_bytes()),
-        (Err(_), Format::Text) => Ok(Vec::new()),
+    let printed = match (&answer, args.format) {
+        (Ok(result), Format::Json) => {
+            file::answer(result).map_err(|e| CliError::Failed(format!("{name}: {e}")))?
+        }
+        (Ok(result), Format::Text) => summary(&model, result).into_bytes(),
+        (Err(error), Format::Json) => format!("{}\n", file::failure(error)).into_bytes(),
+        (Err(_), Format::Text) => Vec::new(),
     };
-    if let Err(error) = &answer {
-        eprintln!("error: {name}: {error}");
-    }
-    let written = text.and_then(|bytes| std::io::stdout().lock().write_all(&bytes).map_err(|e| e.to_string()));
-    match (written, answer) {
-        (Ok(()), Ok(_)) => ExitCode::SUCCESS,
-        (Ok(()), Err(_)) => ExitCode::from(1),
-        (Err(message), _) => {
-            eprintln!("error: {message}");
-            ExitCode::from(1)
+    io::stdout().lock().write_all(&printed).map_err(CliError::write("standard output"))?;
+    match answer {
+        Ok(_) => Ok(ExitCode::SUCCESS),
+        Err(error) => {
+            console.error(&format!("{name}: {error}"));
+            Ok(ExitCode::from(exit::FAILED))
         }
     }
 }
 
 fn summary(model: &FrameModel, result: &FrameResult) -> String {
-    use std::fmt::Write;
     let mut text = String::new();
     let mut line = |label: &str, value: String| {
         // Writing to a String cannot fail.
@@ -71,11 +68,19 @@ fn summary(model: &FrameModel, result: &FrameResult) -> String {
     line("largest displacement", format!("{:.4} mm at {node}", 1e3 * largest));
     let [x, y, z] = result.total_reaction.map(|r| r / 1e3);
     line("sum of reactions", format!("({x:.3}, {y:.3}, {z:.3}) kN"));
-    let (used, member) = result.utilisation();
-    line("utilisation", format!("{used:.4} in {member}"));
-    line("  at member ends", format!("{:.4}", result.worst(|u| u.ends).0));
-    line("  ends and between", format!("{:.4}", result.worst(|u| u.inner).0));
-    line("  von Mises", format!("{:.4}", result.worst(|u| u.von_mises).0));
+    if let (Some((used, member)), Some(ends), Some(inner), Some(mises)) = (
+        result.utilisation(),
+        result.worst(|u| u.ends),
+        result.worst(|u| u.inner),
+        result.worst(|u| u.von_mises),
+    ) {
+        line("utilisation", format!("{used:.4} in {member}"));
+        line("  at member ends", format!("{:.4} in {}", ends.0, ends.1));
+        line("  ends and between", format!("{:.4} in {}", inner.0, inner.1));
+        line("  von Mises", format!("{:.4} in {}", mises.0, mises.1));
+    } else {
+        line("utilisation", "not known: the section gives no Wy, Wz".into());
+    }
     if result.buckling_factors.is_empty() {
         line("buckling factors", "none".into());
     } else {

@@ -8,6 +8,7 @@ mod completions;
 mod console;
 mod error;
 mod exit;
+mod frame;
 mod init;
 
 pub use console::{Console, ConsoleArgs};
@@ -35,6 +36,7 @@ enum Command {
     Check(check::Args),
     Init(init::Args),
     Completions(completions::Args),
+    Frame(frame::Args),
 }
 
 /// Runs the program and gives its exit code.
@@ -44,6 +46,7 @@ pub fn main() -> ExitCode {
     let result = match command {
         Command::Check(args) => check::run(args, &console),
         Command::Init(args) => init::run(args, &console),
+        Command::Frame(args) => frame::run(args, &console),
         Command::Completions(args) => completions::run::<Cli>(args),
     };
     result.unwrap_or_else(|error| {

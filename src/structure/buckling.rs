@@ -55,7 +55,7 @@ pub fn modes(solver: &mut Solver<'_>, axial: &[f64], search: Search) -> Result<V
 
 /// All modes of a small model: L⁻¹ (−Kg) L⁻ᵀ with K = L Lᵀ.
 fn dense(solver: &mut Solver<'_>, axial: &[f64], modes: usize) -> Result<Vec<Mode>, NoConvergence> {
-    let n = solver.system().len();
+    let n = solver.system().unknowns();
     let free: Vec<usize> = (0..n).filter(|&i| !solver.system().held()[i]).collect();
     let m = free.len();
     // Columns of −Kg and then K⁻¹ by unit vectors would square the condition; take K itself.
@@ -174,7 +174,7 @@ struct Ritz {
 
 impl<'a, 'm> Lanczos<'a, 'm> {
     fn new(solver: &'a mut Solver<'m>, axial: &'a [f64], search: Search) -> Self {
-        let n = solver.system().len();
+        let n = solver.system().unknowns();
         let block = (search.modes + 1).clamp(2, 6);
         Self {
             block,
@@ -216,7 +216,8 @@ impl<'a, 'm> Lanczos<'a, 'm> {
     /// A random block, M-orthonormal and orthogonal to V, with its product with M.
     fn random_block(&mut self) -> (Columns, Columns) {
         let n = self.v.n;
-        let mut g = Columns { n, data: (0..n * self.block).map(|_| random::unit(&mut self.rng) - 0.5).collect() };
+        let mut g =
+            Columns { n, data: (0..n * self.block).map(|_| random::unit(&mut self.rng) - 0.5).collect() };
         for column in g.data.chunks_mut(n) {
             self.solver.system().hold_vector(column);
         }
@@ -319,7 +320,9 @@ fn orthonormalise(z: &mut Columns, g: &mut Columns) -> DMatrix<f64> {
     let eigen = SymmetricEigen::new(gram);
     let largest = eigen.eigenvalues.amax();
     let kept: Vec<usize> = (0..eigen.eigenvalues.len())
-        .filter(|&i| eigen.eigenvalues[i] > 1e-20 * largest.max(f64::MIN_POSITIVE) && eigen.eigenvalues[i] > 0.0)
+        .filter(|&i| {
+            eigen.eigenvalues[i] > 1e-20 * largest.max(f64::MIN_POSITIVE) && eigen.eigenvalues[i] > 0.0
+        })
         .collect();
     let vectors = eigen.eigenvectors.select_columns(&kept);
     let roots: Vec<f64> = kept.iter().map(|&i| eigen.eigenvalues[i].sqrt()).collect();

@@ -62,9 +62,9 @@ impl Factor {
         }
     }
 
-    /// Solves in place for the columns of `rhs`, each `system.len()` long.
+    /// Solves in place for the columns of `rhs`, each `system.unknowns()` long.
     pub fn solve(&mut self, system: &System, rhs: &mut [f64]) {
-        let n = system.len();
+        let n = system.unknowns();
         let factor = SupernodalLltRef::new(system.symbolic(), &self.values);
         for chunk in rhs.chunks_mut(n * self.columns) {
             let columns = chunk.len() / n;

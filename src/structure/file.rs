@@ -1,8 +1,10 @@
 //! The model file that `quadrille frame` reads, and the JSON it prints.
 
-use super::forces::Resultants;
+use super::forces::{Resultants, Utilisation};
 use super::frame::{FrameAnalysis, FrameError, FrameResult};
-use super::model::{FrameModel, FrameParts, LoadCase, Material, Member, ModelError, NodalLoad, Support, UniformLoad};
+use super::model::{
+    FrameModel, FrameParts, LoadCase, Material, Member, ModelError, NodalLoad, Support, UniformLoad,
+};
 use super::section::{Section, SectionError};
 use serde::{Deserialize, Serialize};
 
@@ -153,7 +155,9 @@ pub fn read(text: &str) -> Result<(FrameModel, FrameAnalysis), FileError> {
 
 fn model(file: File) -> Result<FrameModel, FileError> {
     let section = match file.section {
-        FileSection::Box { width, height, thickness } => Section::rectangular_hollow(width, height, thickness)?,
+        FileSection::Box { width, height, thickness } => {
+            Section::rectangular_hollow(width, height, thickness)?
+        }
         FileSection::Round { diameter } => Section::round(diameter)?,
         FileSection::Tube { diameter, thickness } => Section::tube(diameter, thickness)?,
         FileSection::Properties(p) => Section {
@@ -208,11 +212,11 @@ struct Answer<'a> {
     max_displacement_node: u32,
     total_reaction: [f64; 3],
     buckling_factors: &'a [f64],
-    utilisation: f64,
-    utilisation_member: u32,
-    utilisation_at_member_ends: f64,
-    utilisation_with_inner: f64,
-    utilisation_von_mises: f64,
+    utilisation: Option<f64>,
+    utilisation_member: Option<u32>,
+    utilisation_at_member_ends: Option<f64>,
+    utilisation_with_inner: Option<f64>,
+    utilisation_von_mises: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -248,7 +252,7 @@ impl EndForces {
 
 /// The JSON of an answer, for all nodes and members; one line.
 pub fn answer(result: &FrameResult) -> serde_json::Result<Vec<u8>> {
-    let (utilisation, member) = result.utilisation();
+    let worst = |of: fn(&Utilisation) -> f64| result.worst(of).map(|w| w.0);
     let answer = Answer {
         displacements: result
             .displacements
@@ -267,11 +271,11 @@ pub fn answer(result: &FrameResult) -> serde_json::Result<Vec<u8>> {
         max_displacement_node: result.max_displacement.1.0,
         total_reaction: result.total_reaction,
         buckling_factors: &result.buckling_factors,
-        utilisation,
-        utilisation_member: member.0,
-        utilisation_at_member_ends: result.worst(|u| u.ends).0,
-        utilisation_with_inner: result.worst(|u| u.inner).0,
-        utilisation_von_mises: result.worst(|u| u.von_mises).0,
+        utilisation: result.utilisation().map(|w| w.0),
+        utilisation_member: result.utilisation().map(|w| w.1.0),
+        utilisation_at_member_ends: worst(|u| u.ends),
+        utilisation_with_inner: worst(|u| u.inner),
+        utilisation_von_mises: worst(|u| u.von_mises),
     };
     let mut bytes = serde_json::to_vec(&answer)?;
     bytes.push(b'\n');

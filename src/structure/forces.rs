@@ -119,18 +119,15 @@ impl MemberForces {
             (r.n.abs() / section.area + r.my.abs() / section.wy + r.mz.abs() / section.wz) / strength
         };
         let mises = |r: &Resultants| {
-            let tau = section.shear.map_or(0.0, |s| {
-                (r.mt.abs() / s.wt + r.vy.abs() / s.avy + r.vz.abs() / s.avz) / strength
-            });
+            let tau = section
+                .shear
+                .map_or(0.0, |s| (r.mt.abs() / s.wt + r.vy.abs() / s.avy + r.vz.abs() / s.avz) / strength);
             let sigma = normal(r);
             (sigma * sigma + 3.0 * tau * tau).sqrt()
         };
         let ends = normal(&self.start).max(normal(&self.end));
-        let mut worst = Utilisation {
-            ends,
-            inner: ends,
-            von_mises: mises(&self.start).max(mises(&self.end)),
-        };
+        let mut worst =
+            Utilisation { ends, inner: ends, von_mises: mises(&self.start).max(mises(&self.end)) };
         for x in self.turning_points(section) {
             let r = self.at(x);
             worst.inner = worst.inner.max(normal(&r));

@@ -29,8 +29,8 @@ pub struct FrameResult {
     pub reactions: Vec<(NodeId, [Option<f64>; 6])>,
     /// Forces of each member.
     pub member_forces: Vec<MemberForces>,
-    /// Utilisation of each member.
-    pub member_utilisation: Vec<Utilisation>,
+    /// Utilisation of each member; none where its section's moduli are not known.
+    pub member_utilisation: Vec<Option<Utilisation>>,
     /// Largest displacement of a node, m, and that node.
     pub max_displacement: (f64, NodeId),
     /// Sum of the reaction forces, N.
@@ -83,7 +83,7 @@ pub fn frame(model: &FrameModel, analysis: &FrameAnalysis) -> Result<FrameResult
     solver.set_sections(model.sections())?;
     let mut loads = Vec::new();
     solver.member_loads(&combination, &mut loads);
-    let mut f = vec![0.0; solver.system().len()];
+    let mut f = vec![0.0; solver.system().unknowns()];
     solver.load_vector(&combination, &loads, &mut f);
     let first = solver.first_order(&f);
     finite(&first)?;
@@ -169,7 +169,10 @@ fn collect(
     let member_utilisation = member_forces
         .iter()
         .zip(model.members())
-        .map(|(forces, member)| forces.utilisation(&solver.sections()[member.section as usize], strength))
+        .map(|(forces, member)| {
+            let section = &solver.sections()[member.section as usize];
+            section.has_moduli().then(|| forces.utilisation(section, strength))
+        })
         .collect();
     FrameResult {
         displacements,
@@ -194,19 +197,16 @@ pub fn by_node(system: &System, u: &[f64], nodes: usize) -> Vec<[f64; 6]> {
 }
 
 impl FrameResult {
-    /// The largest of a per-member utilisation, and the member it is of.
-    pub fn worst(&self, of: impl Fn(&Utilisation) -> f64) -> (f64, MemberId) {
-        let mut worst = (0.0, MemberId(0));
-        for (m, used) in self.member_utilisation.iter().enumerate() {
-            if of(used) > worst.0 {
-                worst = (of(used), MemberId(m as u32));
-            }
-        }
-        worst
+    /// The largest of a per-member utilisation, and the member it is of; none if no member has one.
+    pub fn worst(&self, of: impl Fn(&Utilisation) -> f64) -> Option<(f64, MemberId)> {
+        let known = self.member_utilisation.iter().enumerate();
+        known
+            .filter_map(|(m, used)| used.as_ref().map(|used| (of(used), MemberId(m as u32))))
+            .reduce(|worst, next| if next.0 > worst.0 { next } else { worst })
     }
 
     /// The elastic utilisation: inner extremes count in first order, the ends in second order.
-    pub fn utilisation(&self) -> (f64, MemberId) {
+    pub fn utilisation(&self) -> Option<(f64, MemberId)> {
         self.worst(|u| if self.order == 2 { u.ends } else { u.inner })
     }
 }

@@ -51,7 +51,7 @@ pub fn free_motion(
     matrix: &[f64],
     factor: &mut Factor,
 ) -> Option<FreeMotion> {
-    let diagonal: Vec<f64> = (0..system.len()).map(|i| matrix[system.diagonal(i)]).collect();
+    let diagonal: Vec<f64> = (0..system.unknowns()).map(|i| matrix[system.diagonal(i)]).collect();
     let mut shifted = matrix.to_vec();
     for (i, d) in diagonal.iter().enumerate() {
         shifted[system.diagonal(i)] += SHIFT * d;

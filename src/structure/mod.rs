@@ -10,13 +10,16 @@ pub mod factor;
 pub mod file;
 pub mod forces;
 mod frame;
+pub mod gridshell;
 pub mod mechanism;
 pub mod model;
 pub mod params;
 pub mod section;
 pub mod solver;
 pub mod system;
+mod validate;
 
 pub use frame::{FrameAnalysis, FrameError, FrameResult, frame};
+pub use gridshell::{AnalysisError, Response, analyse, analyse_detailed};
 pub use model::{FrameModel, FrameParts, ModelError};
 pub use params::StructureParams;

@@ -321,8 +321,7 @@ fn check_sizes(parts: &FrameParts) -> Result<(), ModelError> {
 }
 
 fn check_material(material: &Material) -> Result<(), ModelError> {
-    let positive =
-        [("E", material.youngs_modulus), ("G", material.shear_modulus), ("fy", material.strength)];
+    let positive = [("E", material.youngs_modulus), ("G", material.shear_modulus), ("fy", material.strength)];
     for (name, value) in positive {
         if !(value > 0.0 && value.is_finite()) {
             return Err(ModelError::Material { name, value, allowed: "greater than 0" });

@@ -47,6 +47,14 @@ pub enum SectionError {
         /// Its value.
         value: f64,
     },
+    /// A property that is negative or not a number.
+    #[error("section {name} = {value} must be 0 or more")]
+    Negative {
+        /// Which property.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
     /// Walls that meet in the middle.
     #[error("section {name} = {value} m must be greater than twice the wall thickness, {thickness} m")]
     WallsMeet {
@@ -154,28 +162,31 @@ impl Section {
         }
     }
 
-    /// Checks that every property is a number that stiffness and stress can be computed from.
+    /// Checks that every property is a number that stiffness and stress can be computed from. Zero means: not given
+    /// (W), rigid (shear areas), or none (I, J: a motion it alone resists is then a mechanism).
     ///
     /// # Errors
-    /// A, Iy, Iz, J, Wy or Wz not positive, or a shear area negative or not finite.
+    /// A not positive, or another property negative or not finite.
     pub fn check(&self) -> Result<(), SectionError> {
-        let properties = [
-            ("A", self.area),
+        positive("A", self.area)?;
+        let others = [
             ("Iy", self.iy),
             ("Iz", self.iz),
             ("J", self.j),
             ("Wy", self.wy),
             ("Wz", self.wz),
+            ("Asy", self.asy),
+            ("Asz", self.asz),
         ];
-        for (name, value) in properties {
-            positive(name, value)?;
+        match others.into_iter().find(|(_, value)| !(*value >= 0.0 && value.is_finite())) {
+            None => Ok(()),
+            Some((name, value)) => Err(SectionError::Negative { name, value }),
         }
-        for (name, value) in [("Asy", self.asy), ("Asz", self.asz)] {
-            if !(value >= 0.0 && value.is_finite()) {
-                return Err(SectionError::NotPositive { name, value });
-            }
-        }
-        Ok(())
+    }
+
+    /// Whether its elastic moduli are known, so that stresses can be given.
+    pub fn has_moduli(&self) -> bool {
+        self.wy > 0.0 && self.wz > 0.0
     }
 }
 

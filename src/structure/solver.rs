@@ -95,12 +95,19 @@ impl<'m> Solver<'m> {
         if !suspicious {
             return Ok(());
         }
-        match mechanism::free_motion(self.model, &self.system, &self.stiffness, &self.matrix, &mut self.factor) {
+        match mechanism::free_motion(
+            self.model,
+            &self.system,
+            &self.stiffness,
+            &self.matrix,
+            &mut self.factor,
+        ) {
             Some(motion) => Err(motion),
             // The search for a free motion has used the factor's room.
-            None => self.factor.factorise(&self.system, &self.matrix).map_err(|e| {
-                mechanism::named(&self.system, e.unknown)
-            }),
+            None => self
+                .factor
+                .factorise(&self.system, &self.matrix)
+                .map_err(|e| mechanism::named(&self.system, e.unknown)),
         }
     }
 
@@ -158,7 +165,7 @@ impl<'m> Solver<'m> {
 
     /// Solves K u = f in place, for one or several columns.
     pub fn solve(&mut self, rhs: &mut [f64]) {
-        for column in rhs.chunks_mut(self.system.len()) {
+        for column in rhs.chunks_mut(self.system.unknowns()) {
             self.system.hold_vector(column);
         }
         self.factor.solve(&self.system, rhs);
@@ -169,7 +176,7 @@ impl<'m> Solver<'m> {
         let mut u = f.to_vec();
         self.solve(&mut u);
         let mut residual = f.to_vec();
-        for (u, r) in u.chunks(self.system.len()).zip(residual.chunks_mut(self.system.len())) {
+        for (u, r) in u.chunks(self.system.unknowns()).zip(residual.chunks_mut(self.system.unknowns())) {
             self.subtract_forces(u, None, r);
         }
         self.solve(&mut residual);
@@ -210,7 +217,7 @@ impl<'m> Solver<'m> {
 
     /// y = −Kg(N) x, for several columns, without a matrix.
     pub fn minus_geometric(&self, axial: &[f64], x: &[f64], y: &mut [f64]) {
-        let n = self.system.len();
+        let n = self.system.unknowns();
         y.fill(0.0);
         for (x, y) in x.chunks(n).zip(y.chunks_mut(n)) {
             for ((axes, slot), &tension) in self.model.axes().iter().zip(self.system.slots()).zip(axial) {
@@ -243,7 +250,7 @@ impl<'m> Solver<'m> {
 
     /// Solves (K + s Kg) x = rhs in place with the last shifted factor.
     pub fn solve_shifted(&mut self, rhs: &mut [f64]) {
-        for column in rhs.chunks_mut(self.system.len()) {
+        for column in rhs.chunks_mut(self.system.unknowns()) {
             self.system.hold_vector(column);
         }
         if let Some(factor) = &mut self.shifted_factor {

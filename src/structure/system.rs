@@ -8,8 +8,8 @@
 use super::element::Blocks;
 use super::model::FrameModel;
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
 use faer::sparse::linalg::cholesky::{simplicial, supernodal};
+use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
 use nalgebra::Matrix3;
 
 /// Unknowns of a node.
@@ -84,7 +84,7 @@ impl System {
     }
 
     /// Number of unknowns, held ones included.
-    pub fn len(&self) -> usize {
+    pub fn unknowns(&self) -> usize {
         DOFS * self.nodes
     }
 
@@ -139,12 +139,8 @@ impl System {
     /// Adds a member's blocks × `factor` to a matrix's values.
     pub fn add(&self, values: &mut [f64], member: usize, blocks: &Blocks, factor: f64) {
         let Slot { start, end, below } = self.slots[member];
-        let b = Blocks {
-            d: blocks.d * factor,
-            s: blocks.s * factor,
-            p: blocks.p * factor,
-            q: blocks.q * factor,
-        };
+        let b =
+            Blocks { d: blocks.d * factor, s: blocks.s * factor, p: blocks.p * factor, q: blocks.q * factor };
         let turned = b.s.transpose();
         self.add_block(values, start / DOFS, 0, [&b.d, &b.s, &turned, &b.p]);
         self.add_block(values, end / DOFS, 0, [&b.d, &-b.s, &-turned, &b.p]);

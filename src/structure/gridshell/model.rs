@@ -1,0 +1,179 @@
+//! From a pattern to a frame model: members, supports, panel loads, excluded zones.
+
+use super::AnalysisError;
+use super::panels::Panels;
+use crate::geometry::pattern::Pattern;
+use crate::structure::model::{FrameModel, FrameParts, LoadCase, Material, Member, NodalLoad, Support};
+use crate::structure::params::{
+    Direction, ElementsPerMember, LoadParams, StructureParams, SupportParams, SupportPlace,
+};
+use crate::structure::section::Section;
+use nalgebra::Vector3;
+
+/// A pattern as a frame: nodes `0 .. vertices` are the pattern's, those inside split members follow, edge by edge.
+#[derive(Debug)]
+pub struct GridshellModel {
+    /// The frame, one load case for each of the config's, in the order of their names.
+    pub frame: FrameModel,
+    /// For each member, the pattern's edge it is (part of).
+    pub edge: Vec<u32>,
+    /// For each member, whether it counts for `utilisation`.
+    pub counts: Vec<bool>,
+    /// Sum of member lengths, m.
+    pub total_length: f64,
+    /// Sum of the panels' true areas, m².
+    pub panel_area: f64,
+}
+
+impl GridshellModel {
+    /// Builds the model with sections of the given height.
+    ///
+    /// # Errors
+    /// Members, supports or loads that cannot be.
+    pub fn new(pattern: &Pattern, params: &StructureParams, height: f64) -> Result<Self, AnalysisError> {
+        check_references(pattern)?;
+        let panels = Panels::new(pattern);
+        let mut nodes = pattern.positions.clone();
+        let mut members = Vec::new();
+        let mut edge = Vec::new();
+        for (e, &[a, b]) in pattern.edges.iter().enumerate() {
+            let up = panels.up(a) + panels.up(b);
+            let (from, to) = (at(pattern, a), at(pattern, b));
+            let pieces = pieces(params.elements_per_member, (to - from).norm(), pattern.target_length)?;
+            let mut start = a;
+            for piece in 1..=pieces {
+                let end = if piece == pieces {
+                    b
+                } else {
+                    let p = from + (to - from) * (f64::from(piece) / f64::from(pieces));
+                    nodes.push([p.x, p.y, p.z]);
+                    (nodes.len() - 1) as u32
+                };
+                members.push(Member { start, end, up: [up.x, up.y, up.z], section: 0 });
+                edge.push(e as u32);
+                start = end;
+            }
+        }
+        let material = &params.material;
+        let e = material.youngs_modulus_pa;
+        let parts = FrameParts {
+            nodes,
+            members,
+            sections: vec![Section::of_params(&params.section, height)?],
+            material: Material {
+                youngs_modulus: e,
+                shear_modulus: e / (2.0 * (1.0 + material.poisson)),
+                density: material.density_kg_m3,
+                strength: material.yield_pa / material.gamma_m0,
+            },
+            shear_deformation: params.shear_deformation,
+            supports: supports(pattern, &params.supports)?,
+            load_cases: params.loads.values().map(|load| load_case(load, &panels)).collect(),
+        };
+        let frame = FrameModel::new(parts)?;
+        Ok(Self {
+            counts: counting(pattern, params, &edge),
+            total_length: frame.axes().iter().map(|a| a.length).sum(),
+            panel_area: panels.total_area(),
+            frame,
+            edge,
+        })
+    }
+}
+
+fn at(pattern: &Pattern, vertex: u32) -> Vector3<f64> {
+    Vector3::from(pattern.positions[vertex as usize])
+}
+
+/// A pattern comes from our own geometry; still, no index of it is trusted.
+fn check_references(pattern: &Pattern) -> Result<(), AnalysisError> {
+    let count = pattern.positions.len();
+    let corners = pattern.panels.iter().flat_map(|p| p.corners());
+    let edges = pattern.edges.iter().flatten();
+    let loops = pattern.loops.iter().flatten();
+    match corners.chain(edges).chain(loops).chain(&pattern.corners).find(|v| **v as usize >= count) {
+        None => Ok(()),
+        Some(vertex) => Err(AnalysisError::Pattern(format!("vertex {vertex} of {count} does not exist"))),
+    }
+}
+
+/// Into how many elements an edge is split.
+fn pieces(rule: ElementsPerMember, length: f64, target: f64) -> Result<u32, AnalysisError> {
+    const MOST: f64 = 1000.0;
+    let count = match rule {
+        ElementsPerMember::Number(n) => f64::from(n.max(1)),
+        // The small deduction keeps a length that is a whole multiple but for rounding from being split once more.
+        ElementsPerMember::Word(_) => (length / (1.5 * target) - 1e-9).ceil().max(1.0),
+    };
+    if count <= MOST {
+        Ok(count as u32)
+    } else {
+        Err(AnalysisError::Pattern(format!("a member of {length} m would be split into {count} elements")))
+    }
+}
+
+fn supports(pattern: &Pattern, rules: &[SupportParams]) -> Result<Vec<Support>, AnalysisError> {
+    let mut supports = Vec::new();
+    for rule in rules {
+        let nodes: Vec<u32> = match (rule.at, rule.boundary_loop) {
+            (Some(SupportPlace::Boundary), _) => pattern.loops.iter().flatten().copied().collect(),
+            (Some(SupportPlace::Corners), _) => outer_corners(pattern).to_vec(),
+            (Some(SupportPlace::All), _) => (0..pattern.positions.len() as u32).collect(),
+            (None, Some(k)) => match pattern.loops.get(k) {
+                Some(vertices) => vertices.clone(),
+                None => return Err(AnalysisError::NoSuchLoop { index: k, loops: pattern.loops.len() }),
+            },
+            (None, None) => Vec::new(),
+        };
+        let mut fixed = [false; 6];
+        for direction in &rule.fixed {
+            fixed[*direction as usize] = true;
+        }
+        supports.extend(nodes.into_iter().map(|node| Support { node, fixed }));
+    }
+    Ok(supports)
+}
+
+// `fixed[direction as usize]` above counts on this order.
+const _: () = assert!(Direction::Ux as usize == 0 && Direction::Rz as usize == 5);
+
+/// The vertices at the corners of loop 0.
+fn outer_corners(pattern: &Pattern) -> &[u32] {
+    pattern.loop_corners.first().and_then(|range| pattern.corners.get(range.clone())).unwrap_or(&[])
+}
+
+fn load_case(load: &LoadParams, panels: &Panels) -> LoadCase {
+    let nodal = |areas: &[f64], pressure: f64| -> Vec<NodalLoad> {
+        let loaded = areas.iter().enumerate().filter(|(_, area)| **area != 0.0);
+        loaded
+            .map(|(n, area)| NodalLoad { node: n as u32, load: [0.0, 0.0, -area * pressure, 0.0, 0.0, 0.0] })
+            .collect()
+    };
+    match *load {
+        LoadParams::Gravity { g_m_s2 } => LoadCase { gravity: g_m_s2, ..LoadCase::default() },
+        LoadParams::Area { down_pa } => {
+            LoadCase { nodal: nodal(panels.true_shares(), down_pa), ..LoadCase::default() }
+        }
+        LoadParams::Projected { down_pa } => {
+            LoadCase { nodal: nodal(panels.plan_shares(), down_pa), ..LoadCase::default() }
+        }
+    }
+}
+
+/// Which members are outside every excluded zone: those of edges with no end within a zone's radius.
+fn counting(pattern: &Pattern, params: &StructureParams, edge: &[u32]) -> Vec<bool> {
+    let zones: Vec<(Vector3<f64>, f64)> = params
+        .utilisation
+        .exclude
+        .iter()
+        .filter(|zone| zone.corners)
+        .flat_map(|zone| outer_corners(pattern).iter().map(|&c| (at(pattern, c), zone.radius_m)))
+        .collect();
+    let counts = |&e: &u32| {
+        let ends = pattern.edges[e as usize];
+        !ends
+            .iter()
+            .any(|&v| zones.iter().any(|(center, radius)| (at(pattern, v) - center).norm() <= *radius))
+    };
+    edge.iter().map(counts).collect()
+}

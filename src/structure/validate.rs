@@ -1,0 +1,179 @@
+//! What the `[structure]` table must satisfy beyond its types.
+
+use super::params::{
+    ElementsPerMember, HeightParams, LoadParams, SectionParams, StructureParams, SupportParams,
+};
+use super::section::Section;
+
+/// Key paths, relative to `[structure]`, with what is wrong.
+type Problems = Vec<(String, String)>;
+
+impl StructureParams {
+    /// Everything that is wrong with the values: `(key path below [structure], message)`, in the order of the
+    /// documentation. Empty = fine.
+    pub fn validate(&self) -> Vec<(String, String)> {
+        let mut problems = Problems::new();
+        if !matches!(self.order, 1 | 2) {
+            problems.push(("order".into(), format!("{} must be 1 or 2", self.order)));
+        }
+        let tolerance = self.second_order_tolerance;
+        if !(1e-12..=1e-2).contains(&tolerance) {
+            problems
+                .push(("second_order_tolerance".into(), format!("{tolerance} must be from 1e-12 to 1e-2")));
+        }
+        if let ElementsPerMember::Number(n) = self.elements_per_member
+            && !(1..=100).contains(&n)
+        {
+            problems.push(("elements_per_member".into(), format!("{n} must be from 1 to 100, or \"auto\"")));
+        }
+        self.check_material(&mut problems);
+        self.check_height_and_section(&mut problems);
+        for (i, zone) in self.utilisation.exclude.iter().enumerate() {
+            let key = format!("utilisation.exclude[{i}]");
+            at_least_zero(&mut problems, &format!("{key}.radius_m"), zone.radius_m);
+            if !zone.corners {
+                problems
+                    .push((format!("{key}.corners"), "false excludes nothing; leave the zone out".into()));
+            }
+        }
+        for (i, support) in self.supports.iter().enumerate() {
+            check_support(&mut problems, i, support);
+        }
+        self.check_loads(&mut problems);
+        self.check_requirements(&mut problems);
+        problems
+    }
+
+    fn check_material(&self, problems: &mut Problems) {
+        let m = &self.material;
+        positive(problems, "material.youngs_modulus_pa", m.youngs_modulus_pa);
+        if !(m.poisson > -1.0 && m.poisson < 0.5) {
+            let message = format!("{} must lie between -1 and 0.5, both excluded", m.poisson);
+            problems.push(("material.poisson".into(), message));
+        }
+        at_least_zero(problems, "material.density_kg_m3", m.density_kg_m3);
+        positive(problems, "material.yield_pa", m.yield_pa);
+        positive(problems, "material.gamma_m0", m.gamma_m0);
+    }
+
+    fn check_height_and_section(&self, problems: &mut Problems) {
+        let before = problems.len();
+        let (key, least) = match self.height {
+            HeightParams::Fixed { fixed_m } => {
+                positive(problems, "height.fixed_m", fixed_m);
+                ("height.fixed_m", fixed_m)
+            }
+            HeightParams::Sized { min_m, max_m, step_m } => {
+                positive(problems, "height.min_m", min_m);
+                positive(problems, "height.max_m", max_m);
+                positive(problems, "height.step_m", step_m);
+                if max_m <= min_m {
+                    let message = format!("{max_m} must be greater than min_m = {min_m}");
+                    problems.push(("height.max_m".into(), message));
+                }
+                ("height.min_m", min_m)
+            }
+        };
+        match self.section {
+            SectionParams::Box { width_m, thickness_m } => {
+                positive(problems, "section.width_m", width_m);
+                positive(problems, "section.thickness_m", thickness_m);
+                wall(problems, "section.width_m", width_m, thickness_m);
+                wall(problems, key, least, thickness_m);
+            }
+            SectionParams::Tube { thickness_m } => {
+                positive(problems, "section.thickness_m", thickness_m);
+                wall(problems, key, least, thickness_m);
+            }
+            SectionParams::Round {} => {}
+        }
+        // What the checks above have no words for: properties that overflow or vanish.
+        if problems.len() == before
+            && let Err(error) = Section::of_params(&self.section, least).and_then(|s| s.check())
+        {
+            problems.push(("section".into(), error.to_string()));
+        }
+    }
+
+    fn check_loads(&self, problems: &mut Problems) {
+        for (name, load) in &self.loads {
+            let (key, value) = match *load {
+                LoadParams::Gravity { g_m_s2 } => ("g_m_s2", g_m_s2),
+                LoadParams::Area { down_pa } | LoadParams::Projected { down_pa } => ("down_pa", down_pa),
+            };
+            if !value.is_finite() {
+                problems.push((format!("loads.{name}.{key}"), format!("{value} is not a finite number")));
+            }
+        }
+        if self.combinations.is_empty() {
+            problems.push(("combinations".into(), "at least one combination is needed".into()));
+        }
+        for (name, cases) in &self.combinations {
+            for (case, factor) in cases {
+                let key = format!("combinations.{name}.{case}");
+                if !self.loads.contains_key(case) {
+                    problems
+                        .push((key, format!("there is no load case {case:?}; {}", known(self.loads.keys()))));
+                } else if !factor.is_finite() {
+                    problems.push((key, format!("{factor} is not a finite number")));
+                }
+            }
+        }
+    }
+
+    fn check_requirements(&self, problems: &mut Problems) {
+        for (i, requirement) in self.requirements.iter().enumerate() {
+            let key = |name: &str| format!("requirement[{i}].{name}");
+            let combination = &requirement.combination;
+            if !self.combinations.contains_key(combination) {
+                let message =
+                    format!("there is no combination {combination:?}; {}", known(self.combinations.keys()));
+                problems.push((key("combination"), message));
+            }
+            match (requirement.max, requirement.min) {
+                (Some(max), None) => positive(problems, &key("max"), max),
+                (None, Some(min)) => positive(problems, &key("min"), min),
+                (Some(_), Some(_)) => problems.push((key("min"), "give either max or min, not both".into())),
+                (None, None) => problems.push((key("max"), "give max or min".into())),
+            }
+        }
+    }
+}
+
+fn known<'a>(names: impl Iterator<Item = &'a String>) -> String {
+    let names: Vec<&str> = names.map(String::as_str).collect();
+    if names.is_empty() { "none is defined".into() } else { format!("known: {}", names.join(", ")) }
+}
+
+fn positive(problems: &mut Problems, key: &str, value: f64) {
+    if !(value > 0.0 && value.is_finite()) {
+        problems.push((key.into(), format!("{value} must be greater than 0")));
+    }
+}
+
+fn at_least_zero(problems: &mut Problems, key: &str, value: f64) {
+    if !(value >= 0.0 && value.is_finite()) {
+        problems.push((key.into(), format!("{value} must be 0 or more")));
+    }
+}
+
+fn wall(problems: &mut Problems, key: &str, value: f64, thickness: f64) {
+    if value > 0.0 && thickness > 0.0 && value <= 2.0 * thickness {
+        let message = format!("{value} must be greater than twice the wall thickness, {thickness}");
+        problems.push((key.into(), message));
+    }
+}
+
+fn check_support(problems: &mut Problems, i: usize, support: &SupportParams) {
+    let key = |name: &str| format!("support[{i}].{name}");
+    match (support.at, support.boundary_loop) {
+        (Some(_), Some(_)) => problems.push((key("loop"), "give either at or loop, not both".into())),
+        (None, None) => {
+            problems.push((key("at"), "give at = \"boundary\", \"corners\" or \"all\", or loop = k".into()));
+        }
+        _ => {}
+    }
+    if support.fixed.is_empty() {
+        problems.push((key("fixed"), "name at least one of ux, uy, uz, rx, ry, rz".into()));
+    }
+}
