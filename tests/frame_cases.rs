@@ -1,6 +1,8 @@
 //! The reference cases (`tests/data/frames/README.md`): closed forms and independent programs, each within its own
 //! tolerance. The rule of comparison is that of the cases' `compare.py`.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot read its case has failed")]
+
 use quadrille::structure::{FrameError, file, frame};
 use serde_json::Value;
 use std::path::Path;

@@ -49,7 +49,7 @@ pub fn grid_shell([m, n]: [u32; 2], [width, depth]: [f64; 2], z: impl Fn(f64, f6
         panels,
         edges,
         loops: vec![outer],
-        loop_corners: vec![0..4],
+        loop_corners: std::iter::once(0..4).collect(),
         corners,
     }
 }
