@@ -1,0 +1,127 @@
+// Puts the page together.
+
+function writeHead() {
+  const { run } = facts;
+  byId("lede").innerHTML = `Topologies for a structured surface structure, found by evolving strings of a quad-mesh grammar. ${frontDesigns.length ? `This page shows the ${plural(frontDesigns.length, "design")} that no other design beats in every objective, against the initial mesh.`
+      : "The search found no feasible design: no front to show."} Lengths in metres, masses in kilograms; numbers without a unit are ratios. Pictures are rounded to ${roundingText()}; exact geometry is in <code>designs/</code>, exact numbers in <code>pareto.csv</code>.`;
+  const share = run.evaluations ? ` (${d3.format(".0%")(run.feasible / run.evaluations)})` : "";
+  const counts = [["designs on the front", whole(frontDesigns.length)], ["evaluated", whole(run.evaluations)], ["feasible", whole(run.feasible) + share],
+    ["duplicates refused", whole(run.duplicates_refused)], ["generations", whole(facts.generations.length)], ["seed", run.seed.length > 9 ? `${run.seed.slice(0, 4)}…${run.seed.slice(-3)}` : run.seed]];
+  byId("counts").innerHTML = counts.map(([name, text]) => `<div><dt>${name}</dt><dd>${escapeHtml(text)}</dd></div>`).join("");
+  byId("foot").textContent = `Written by quadrille ${run.program_version}. Method: Oval, Mesnil, Van Mele, Baverel, Block, “A vector encoding for topology finding of structured quad-based patterns for surface structures”.`;
+  byId("config").textContent = facts.config_toml;
+}
+/** The coarsest step of all embedded meshes, in millimetres. */
+function roundingText() {
+  const step = d3.max(Object.values(packedMeshes), (m) => d3.max(m.step)) ?? 0;
+  return `${number(Math.max(0.1, Math.ceil(step * 1e4) / 10))} mm`;
+}
+
+function startToolbar() {
+  const paint = byId("paint");
+  for (const [key, text] of [["none", "one colour"], ...objectives.map((o, i) => [String(i), o.label]), ["family", "family"]]) paint.add(new Option(text, key));
+  paint.addEventListener("change", () => { state.paint = paint.value; changed("paint"); });
+  byId("clear").addEventListener("click", () => { state.limits.clear(); state.family = null; changed("limits"); });
+  byId("previous").addEventListener("click", () => step(-1));
+  byId("next").addEventListener("click", () => step(1));
+  byId("pin").addEventListener("click", () => togglePin(state.picked));
+  const count = () => {
+    const others = frontDesigns.filter((d) => !d.baseline), n = others.filter(kept).length;
+    byId("kept").textContent = `${whole(n)} of ${plural(others.length, "design")} within the limits${state.family ? ` and family ${state.family.letter}` : ""}`;
+    byId("clear").disabled = !state.limits.size && !state.family;
+  };
+  events.on("limits.count", count);
+  count();
+}
+
+/** The same limits as the brushes, by numbers and so by keyboard. */
+function startLimits() {
+  const box = byId("limits");
+  const inputs = objectives.map((o) => ["least", "most"].map((end) => {
+    const input = document.createElement("input");
+    Object.assign(input, { type: "number", step: "any", placeholder: d3.format(".4~r")(o[end] ?? 0) });
+    input.setAttribute("aria-label", `${end} ${o.label}${o.unit ? ` in ${o.unit}` : ""}`);
+    input.addEventListener("change", () => {
+      const [low, high] = inputs[objectives.indexOf(o)].map((i) => (i.value === "" ? null : Number(i.value)));
+      setLimit(o, low === null && high === null ? null : [low ?? o.least, high ?? o.most]);
+      changed("limits");
+    });
+    return input;
+  }));
+  for (const [i, o] of objectives.entries()) {
+    const row = document.createElement("div");
+    const name = document.createElement("span");
+    name.textContent = unitLabel(o);
+    row.append(name, inputs[i][0], "to", inputs[i][1]);
+    box.append(row);
+  }
+  events.on("limits.inputs", () => {
+    for (const [i, o] of objectives.entries()) {
+      const limit = state.limits.get(o);
+      for (const [k, input] of inputs[i].entries()) input.value = limit ? d3.format(".4~r")(limit[k]) : "";
+    }
+  });
+}
+
+function startFields() {
+  const box = byId("fields");
+  const available = FIELDS.filter((f) => f.available);
+  if (!available.some((f) => f.key === state.field)) state.field = available[0]?.key ?? "none";
+  for (const { key, label } of [...available, { key: "none", label: "None" }]) {
+    const element = document.createElement("label");
+    element.innerHTML = `<input type="radio" name="field" value="${key}"${key === state.field ? " checked" : ""}> ${label}`;
+    element.firstChild.addEventListener("change", () => { state.field = key; changed("field"); });
+    box.append(element);
+  }
+  events.on("field.legend", writeLegend);
+  writeLegend();
+}
+function writeLegend() {
+  const field = fieldByKey.get(state.field), box = byId("legend");
+  if (!field) { box.innerHTML = "<p class='small'><span class='dot'></span> singular vertices</p>"; return; }
+  const ticks = d3.range(0, 5).map((i) => (field.top * i) / 4);
+  box.innerHTML = `<div class="ramp" style="background:linear-gradient(to right,${field.colours.join(",")})"></div>
+    <div class="ramp-ticks">${ticks.map((t, i) => `<span>${i === 4 ? "≥ " : ""}${number(t)}</span>`).join("")}</div>
+    <p class="small"><b>${field.label}</b> (ratio, no unit): ${field.meaning}. One scale for all designs. <span class="dot"></span> singular vertices.</p>`;
+}
+
+/** The picked design in the address, so that a link leads to it. */
+function startAddress() {
+  const fromAddress = () => designById.get(decodeURIComponent(location.hash.replace(/^#design-/, "")));
+  const wanted = fromAddress();
+  if (wanted) state.picked = wanted;
+  addEventListener("hashchange", () => pick(fromAddress()));
+  const bar = byId("picked-bar");
+  events.on("pick.address", () => {
+    try { history.replaceState(null, "", `#design-${state.picked.id}`); } catch { /* some viewers have no address */ }
+    bar.textContent = `${nameOf(state.picked)} ↑`;
+    bar.classList.add("on");
+  });
+}
+
+// What is seen first is made first; the rest follows piece by piece, so that the page answers at once.
+writeHead();
+const later = [startShortlist, startTable, startFamilies, startConvergence, startSpread, startMetrics];
+if (designs.length) {
+  startAddress();
+  startToolbar();
+  startFields();
+  startPicked();
+  startViewer();
+  startParallel();
+  startLimits();
+  later.unshift(startMatrix, startGallery);
+} else {
+  for (const id of ["viewer", "front", "gallery-section", "shortlist-section", "table-section", "families-section"]) byId(id).hidden = true;
+  later.splice(0, 3);
+}
+function startNext() {
+  later.shift()?.();
+  if (later.length) setTimeout(startNext);
+  else document.documentElement.dataset.ready = "true";
+}
+addEventListener("beforeprint", () => {
+  while (later.length) startNext();
+  redrawThumbs(true);
+});
+setTimeout(startNext);
