@@ -1,12 +1,17 @@
 //! How new strings are made from old ones (RUN "Operators").
 
+mod append_deletion;
+mod append_strip;
+mod aware;
 mod crossover;
 mod drop_last;
+mod growth;
 mod insert;
 mod random;
 mod remove;
 mod substitute;
 mod swap_pair;
+mod walk;
 
 use std::fmt;
 
@@ -16,6 +21,7 @@ use crate::random::{Rng, below};
 
 pub use crossover::crossover;
 pub use drop_last::drop_last;
+pub use growth::Growth;
 pub use insert::insert;
 pub use random::{structured, uniform};
 pub use remove::remove;

@@ -1,0 +1,131 @@
+//! Operators that follow the decoding, gathered over one initial mesh.
+
+use super::append_deletion::append_deletion;
+use super::append_strip::append_strip;
+use super::aware::aware;
+use super::random::{structured, uniform};
+use super::{drop_last, swap_pair};
+use crate::grammar::{Rules, Tokens, Walker};
+use crate::mesh::InitialMesh;
+use crate::random::Rng;
+use crate::search::params::{Initialiser, TokenBounds};
+use crate::search::problem::RuleOperator;
+
+/// How strings grow from an initial mesh: what a [`Problem`](crate::search::Problem) on real meshes answers to
+/// `random` and `vary`.
+#[derive(Clone, Copy, Debug)]
+pub struct Growth<'a> {
+    /// Where decoding starts.
+    pub initial: &'a InitialMesh,
+    /// Which results a string may have.
+    pub rules: Rules,
+    /// How long a string may be.
+    pub bounds: TokenBounds,
+}
+
+impl Growth<'_> {
+    /// A random string.
+    pub fn random(&self, kind: Initialiser, rng: &mut Rng) -> Tokens {
+        match kind {
+            Initialiser::Uniform => uniform(self.bounds, rng),
+            Initialiser::Structured => structured(self.bounds, rng),
+            Initialiser::Aware => aware(self.start(), self.bounds, rng),
+        }
+    }
+
+    /// A rule-wise operator on an expressed string; `None` where it does not apply.
+    pub fn vary(&self, operator: RuleOperator, expressed: &Tokens, rng: &mut Rng) -> Option<Tokens> {
+        match operator {
+            RuleOperator::AppendStrip => append_strip(self.read(expressed), expressed, self.bounds.max, rng),
+            RuleOperator::AppendDeletion => {
+                append_deletion(self.read(expressed), expressed, self.bounds.max, rng)
+            }
+            RuleOperator::DropLast => drop_last(expressed),
+            RuleOperator::SwapPair => swap_pair(expressed, rng),
+        }
+    }
+
+    fn start(&self) -> Walker {
+        Walker::new(self.initial, self.rules)
+    }
+
+    fn read(&self, tokens: &Tokens) -> Walker {
+        let mut walker = self.start();
+        tokens.iter().for_each(|&token| {
+            walker.apply(token);
+        });
+        walker
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grammar::{Token, decode};
+    use crate::mesh::BaseMesh;
+    use crate::random::stream;
+    use std::collections::BTreeMap;
+
+    /// A 3 × 3 grid, its four corners marked.
+    fn grid() -> InitialMesh {
+        let vertices = (0..16).map(|k| [f64::from(k % 4), f64::from(k / 4), 0.0]).collect();
+        let face = |k: u32| {
+            let a = k / 3 * 4 + k % 3;
+            vec![a, a + 1, a + 5, a + 4]
+        };
+        let base = BaseMesh {
+            vertices,
+            faces: (0..9).map(face).collect(),
+            poles: BTreeMap::new(),
+            marker: None,
+            corners: vec![vec![0], vec![3], vec![15], vec![12]],
+        };
+        InitialMesh::from_base(&base).expect("a grid")
+    }
+
+    fn growth(initial: &InitialMesh) -> Growth<'_> {
+        Growth { initial, rules: Rules::Domain, bounds: TokenBounds { min: 4, max: 40 } }
+    }
+
+    #[test]
+    fn aware_strings_apply_most_of_their_pairs() {
+        let initial = grid();
+        let growth = growth(&initial);
+        let (mut tokens, mut applied, mut rules) = (0, 0, 0);
+        for k in 0..300 {
+            let string = growth.random(Initialiser::Aware, &mut stream(3, k, 0));
+            assert!((4..=40).contains(&string.len()));
+            let decoded = decode(&initial, &string, Rules::Domain);
+            tokens += string.iter().filter(|t| t.is_addition()).count();
+            applied += decoded.expressed.iter().filter(|t| t.is_addition()).count();
+            rules += decoded.trace.iter().filter(|effect| effect.is_applied()).count();
+        }
+        assert!(applied * 10 > tokens * 8, "{applied} of {tokens} A's have an effect");
+        assert!(rules > 600, "{rules} rules in 300 strings");
+    }
+
+    #[test]
+    fn appended_rules_are_applied_and_leave_the_rest_alone() {
+        let initial = grid();
+        let growth = growth(&initial);
+        let mut appended = [0, 0];
+        for k in 0..200 {
+            let mut rng = stream(4, k, 0);
+            let string = growth.random(Initialiser::Aware, &mut rng);
+            let before = decode(&initial, &string, Rules::Domain).expressed;
+            for (n, operator) in
+                [RuleOperator::AppendStrip, RuleOperator::AppendDeletion].into_iter().enumerate()
+            {
+                let Some(longer) = growth.vary(operator, &before, &mut rng) else { continue };
+                appended[n] += 1;
+                assert!(longer.len() <= 40 && longer[..before.len()] == before[..]);
+                let decoded = decode(&initial, &longer, Rules::Domain);
+                assert_eq!(decoded.expressed, longer, "nothing is skipped");
+                assert!(decoded.trace.last().is_some_and(|effect| effect.is_applied()));
+                let rule = longer[before.len()..].iter().filter(|t| **t == Token::Delete).count();
+                assert_eq!(rule, n, "{longer}");
+            }
+        }
+        assert!(appended[0] > 100 && appended[1] > 100, "{appended:?}");
+    }
+}
