@@ -1,1 +1,130 @@
-//! What is minimised and reported: one metric a file, one line in a list.
+//! What is minimised and reported: every number of a design, in one visible list.
+//!
+//! A metric knows its name in the config, its CSV column (with unit), its meaning, and how to read it off an
+//! analysed design. A new one is one constant in a file of this folder and its line in [`METRICS`].
+
+mod fabrication;
+mod structural;
+mod topological;
+
+use crate::geometry::metrics::Fabrication;
+use crate::mesh::CanonicalMesh;
+use crate::structure::gridshell::Response;
+
+/// A design after all stages: what metrics are read from.
+#[derive(Clone, Copy, Debug)]
+pub struct AnalysedDesign<'a> {
+    /// The canonical coarse mesh.
+    pub topology: &'a CanonicalMesh,
+    /// The measures of the dense pattern.
+    pub fabrication: &'a Fabrication,
+    /// The answer of the structure; absent where none is configured.
+    pub response: Option<&'a Response>,
+}
+
+/// One number of a design.
+#[derive(Clone, Copy, Debug)]
+pub struct Metric {
+    /// Its name in `[objectives] minimise`.
+    pub name: &'static str,
+    /// Its column in the CSV files, with the unit.
+    pub column: &'static str,
+    /// Its unit as people write it; empty for a pure number.
+    pub unit: &'static str,
+    /// What it is, in one line.
+    pub about: &'static str,
+    /// Whether it needs a structural analysis.
+    pub structural: bool,
+    /// Its value; `None` where it does not exist (an infinite buckling factor, skewness without quads).
+    pub value: fn(&AnalysedDesign) -> Option<f64>,
+}
+
+/// Every metric, in the order of the CSV columns. All are minimised when they are objectives.
+pub const METRICS: &[&Metric] = &[
+    &structural::MASS,
+    &structural::DEFLECTION,
+    &structural::UTILISATION,
+    &structural::BUCKLING,
+    &fabrication::CURVATURE,
+    &fabrication::SKEWNESS,
+    &fabrication::EDGE_SPREAD,
+    &structural::HEIGHT,
+    &structural::BUCKLING_FACTOR,
+    &structural::UTILISATION_VON_MISES,
+    &structural::UTILISATION_ALL,
+    &structural::DEFLECTION_VERTICAL,
+    &structural::MASS_PER_AREA,
+    &structural::UPLIFT,
+    &structural::SUPPORT_SLIDE,
+    &topological::FACES,
+    &topological::TRIANGLES,
+    &topological::NODES,
+    &topological::MEMBERS,
+    &fabrication::MEMBER_LENGTH,
+    &topological::STRIPS,
+    &topological::SINGULARITIES,
+    &topological::SINGULARITIES_INNER,
+    &topological::SINGULARITIES_BOUNDARY,
+    &topological::POLES,
+    &fabrication::EDGE_MEAN,
+    &fabrication::EDGE_MIN,
+    &fabrication::EDGE_MAX,
+    &fabrication::PANEL_AREA_MEAN,
+    &fabrication::PANEL_AREA_SPREAD,
+    &fabrication::ASPECT_RATIO,
+    &fabrication::PLANARITY,
+    &fabrication::CURVATURE_AREA,
+    &fabrication::CURVATURE_MAX,
+    &fabrication::SKEWNESS_AREA,
+    &fabrication::SKEWNESS_MAX,
+    &fabrication::REFLEX_CORNERS,
+];
+
+/// The metric of a name.
+pub fn find(name: &str) -> Option<&'static Metric> {
+    METRICS.iter().copied().find(|metric| metric.name == name)
+}
+
+/// All metrics of a design, in the order of [`METRICS`]; what is not finite does not exist.
+pub fn measure(design: &AnalysedDesign) -> Vec<Option<f64>> {
+    METRICS.iter().map(|metric| (metric.value)(design).filter(|value| value.is_finite()).map(round)).collect()
+}
+
+/// Rounds to 10 significant digits (RUN "Reproducible"), so that the last bits of another CPU's math library do not
+/// reach a comparison, the cache or a file.
+pub fn round(value: f64) -> f64 {
+    format!("{value:.9e}").parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn names_and_columns_are_unique_and_carry_the_unit() {
+        let names: BTreeSet<_> = METRICS.iter().map(|metric| metric.name).collect();
+        let columns: BTreeSet<_> = METRICS.iter().map(|metric| metric.column).collect();
+        assert_eq!((names.len(), columns.len()), (METRICS.len(), METRICS.len()));
+        for metric in METRICS {
+            let suffix = match metric.unit {
+                "" => "",
+                "m" => "_m",
+                "m²" => "_m2",
+                "kg" => "_kg",
+                "kg/m²" => "_kg_m2",
+                "kN" => "_kn",
+                other => panic!("{}: no suffix known for {other}", metric.name),
+            };
+            assert!(metric.column.ends_with(suffix), "{} [{}]", metric.column, metric.unit);
+            assert!(metric.column.starts_with(metric.name), "{}", metric.column);
+        }
+    }
+
+    #[test]
+    fn rounding_keeps_ten_digits() {
+        assert_eq!(round(1.234_567_890_123_4), 1.234_567_890);
+        assert_eq!(round(-98_765_432_109.876), -98_765_432_110.0);
+        assert_eq!(round(0.0), 0.0);
+    }
+}
