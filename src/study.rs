@@ -1,1 +1,278 @@
-//! The pipeline in one place: string → evaluated design.
+//! The pipeline in one place: string → topology → geometry → structure → numbers.
+//!
+//! A [`Study`] is made once from a config and only read afterwards. It serves the search as its [`Problem`], and the
+//! designer's commands with whole [`Design`]s.
+
+use crate::config::Config;
+use crate::domain::{Domain, DomainError};
+use crate::evolve::{FAILED, Violation};
+use crate::geometry::limits::{self, LimitExcess};
+use crate::geometry::metrics::{self, Fabrication};
+use crate::geometry::{self, Pattern, PatternParams, Rejection, params::Pinched};
+use crate::grammar::{self, Decoded, Rules, Tokens};
+use crate::mesh::distance::deletions;
+use crate::mesh::isomorphism::{Equivalence, Symmetry, canonical_mesh_under};
+use crate::mesh::{CanonicalMesh, Code, InitialMesh, QuadMesh};
+use crate::objectives::{self, AnalysedDesign, METRICS, Metric};
+use crate::random::Rng;
+use crate::search::params::{EquivalenceParams, Initialiser};
+use crate::search::{Evaluation, Identity, Problem, RuleOperator, SearchParams, operators, round_significant};
+use crate::skeleton::{self, InitialError};
+use crate::structure::StructureParams;
+use crate::structure::gridshell::{self, AnalysisError, Response};
+use crate::surface::{self, Surface, SurfaceError};
+use std::path::Path;
+use std::sync::Arc;
+
+/// A config made ready: domain, surface, initial mesh, and the parameters of every stage.
+pub struct Study {
+    /// Boundary loops and corners.
+    pub domain: Domain,
+    /// What vertices are held on.
+    pub surface: Arc<dyn Surface>,
+    /// The initial mesh and the marker's start.
+    pub initial: InitialMesh,
+    /// What is minimised, in the order of the config.
+    pub objectives: Vec<&'static Metric>,
+    rules: Rules,
+    symmetries: Vec<Symmetry>,
+    pinched: Pinched,
+    pattern: PatternParams,
+    structure: Option<StructureParams>,
+    search: SearchParams,
+}
+
+/// Why a config cannot be made ready.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyError {
+    /// The surface is faulty.
+    #[error("[surface] {0}")]
+    Surface(#[from] SurfaceError),
+    /// The domain is faulty.
+    #[error("[domain] {0}")]
+    Domain(#[from] DomainError),
+    /// There is no initial mesh.
+    #[error("[topology] {0}")]
+    Initial(#[from] InitialError),
+}
+
+/// A design after all stages that it passed.
+#[derive(Clone, Debug)]
+pub struct Design {
+    /// The canonical coarse mesh.
+    pub topology: CanonicalMesh,
+    /// The dense pattern on the surface.
+    pub pattern: Pattern,
+    /// Its measures.
+    pub fabrication: Fabrication,
+    /// The limits of the config, kept or not.
+    pub limits: Vec<LimitExcess>,
+    /// The answer of the structure, where one is configured and was asked for.
+    pub response: Option<Response>,
+}
+
+/// Why a design has no numbers: data, ranked by the stage it reached (RUN "Failures are data").
+#[derive(Clone, Debug, PartialEq)]
+pub struct Failure {
+    /// Stage and measure.
+    pub violation: Violation,
+    /// In words.
+    pub reason: String,
+    /// Whether the structure was analysed.
+    pub structural: bool,
+}
+
+/// Which designs are worth a structural analysis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effort {
+    /// Only those that keep the pattern's limits, as in a search.
+    Promising,
+    /// All that have a pattern, for a designer who wants every number.
+    Everything,
+}
+
+impl Study {
+    /// Makes a config ready; files named in it are relative to `base_dir`.
+    ///
+    /// # Errors
+    /// See [`StudyError`]; nothing has been evaluated then.
+    pub fn new(config: &Config, base_dir: &Path) -> Result<Self, StudyError> {
+        let surface = surface::build(&config.surface, base_dir)?;
+        let domain = Domain::resolve(&config.domain, &surface, base_dir)?;
+        let initial = skeleton::initial(&config.topology, &domain, base_dir)?;
+        let objectives = config.objectives.minimise.iter().filter_map(|name| objectives::find(name)).collect();
+        Ok(Self {
+            rules: Rules::of(config.topology.rules, &domain),
+            domain,
+            surface,
+            initial,
+            objectives,
+            pinched: config.topology.pinched,
+            pattern: config.pattern.clone(),
+            structure: config.structure.clone(),
+            search: config.search.clone(),
+        })
+    }
+
+    /// Reads a string.
+    pub fn decode(&self, tokens: &Tokens) -> Decoded {
+        grammar::decode(&self.initial, tokens, self.rules)
+    }
+
+    /// The canonical mesh of a string: all that geometry may know of it.
+    pub fn topology(&self, tokens: &Tokens) -> CanonicalMesh {
+        canonical_mesh_under(&self.decode(tokens).mesh, &self.symmetries)
+    }
+
+    /// Develops a topology through all stages.
+    ///
+    /// # Errors
+    /// The [`Failure`] of the first stage that refuses the design.
+    pub fn develop(&self, topology: CanonicalMesh, effort: Effort) -> Result<Design, Failure> {
+        if let Some(rejection) = geometry::topological_rejection(&topology, &self.domain, self.pinched) {
+            return Err(rejection.into());
+        }
+        let pattern = geometry::develop(&topology, &self.domain, self.surface.as_ref(), &self.pattern)?;
+        let fabrication = metrics::measure(&pattern, &topology);
+        let limits = limits::excesses(&pattern, &self.pattern.limits, 0.0);
+        let worthwhile = effort == Effort::Everything || limits.iter().all(|limit| limit.excess <= 0.0);
+        let response = match &self.structure {
+            Some(params) if worthwhile => Some(gridshell::analyse(&pattern, params)?),
+            _ => None,
+        };
+        Ok(Design { topology, pattern, fabrication, limits, response })
+    }
+
+    /// Everything that is known of a developed design, as the search and the files take it.
+    pub fn evaluation(&self, design: &Design) -> Evaluation {
+        let analysed = AnalysedDesign {
+            topology: &design.topology,
+            fabrication: &design.fabrication,
+            response: design.response.as_ref(),
+        };
+        let metrics = objectives::measure(&analysed).into_iter().map(|m| m.map(round_significant)).collect();
+        let objectives: Vec<f64> =
+            self.objectives.iter().filter_map(|objective| (objective.value)(&analysed)).collect();
+        let (measure, reason) = design.excess();
+        Evaluation {
+            violation: if measure > 0.0 { Violation::new(1, measure) } else { Violation::NONE },
+            reason,
+            objectives: if objectives.len() == self.objectives.len() { objectives } else { Vec::new() },
+            metrics,
+            structural: design.response.is_some(),
+        }
+        .sanitised(self.objectives.len())
+    }
+
+    /// The codes by which the search tells duplicates (RUN "Redundancy"): the design's own, then those of its
+    /// deletions of up to `min_distance` − 1 strips.
+    fn neighbourhood(&self, mesh: &QuadMesh, topology: &CanonicalMesh) -> Vec<(Code, u8)> {
+        let EquivalenceParams { placed, reduce, mirror } = self.search.duplicates.equivalence;
+        let equivalence = Equivalence { placed, reduce, mirror };
+        let depth = self.search.duplicates.min_distance.saturating_sub(1) as usize;
+        if depth > 0 {
+            let reached = deletions(mesh, depth, equivalence).into_iter();
+            let mut codes: Vec<(Code, u8)> = reached.map(|(code, deleted)| (code, deleted as u8)).collect();
+            codes.sort_by_key(|&(code, deleted)| (deleted, code));
+            codes
+        } else if equivalence == Equivalence::default() {
+            // The same code, and the only one that knows the symmetries of the domain.
+            vec![(topology.code, 0)]
+        } else {
+            vec![(equivalence.code(mesh), 0)]
+        }
+    }
+
+    /// Evaluates a topology with the given effort; failures become data.
+    pub fn evaluate_topology(&self, topology: CanonicalMesh, effort: Effort) -> Evaluation {
+        match self.develop(topology, effort) {
+            Ok(design) => self.evaluation(&design),
+            Err(failure) => failure.into(),
+        }
+    }
+}
+
+impl Design {
+    /// Σ of the relative excesses over limits and requirements (stage 1), and what is exceeded, in words.
+    pub fn excess(&self) -> (f64, String) {
+        let limits = self.limits.iter().map(|l| (l.name.to_owned(), l.value, l.limit, l.excess));
+        let requirements = self.response.iter().flat_map(|r| &r.requirements);
+        let requirements = requirements.map(|r| (r.quantity.to_string(), r.value, r.limit, r.excess()));
+        let exceeded: Vec<_> = limits.chain(requirements).filter(|&(.., excess)| excess > 0.0).collect();
+        let words: Vec<String> = exceeded
+            .iter()
+            .map(|(name, value, limit, _)| format!("{name} {value:.4} (limit {limit})"))
+            .collect();
+        (exceeded.iter().map(|&(.., excess)| excess).sum(), words.join("; "))
+    }
+}
+
+impl Problem for Study {
+    fn identify(&self, tokens: &Tokens) -> Identity {
+        let decoded = self.decode(tokens);
+        let topology = canonical_mesh_under(&decoded.mesh, &self.symmetries);
+        let rejected = geometry::topological_rejection(&topology, &self.domain, self.pinched)
+            .map(Failure::from)
+            .map(|failure| (failure.violation, failure.reason));
+        Identity {
+            code: topology.code,
+            neighbourhood: self.neighbourhood(&decoded.mesh, &topology),
+            expressed: decoded.expressed,
+            rejected,
+        }
+    }
+
+    fn evaluate(&self, tokens: &Tokens) -> Evaluation {
+        self.evaluate_topology(self.topology(tokens), Effort::Promising)
+    }
+
+    fn random(&self, rng: &mut Rng) -> Tokens {
+        let bounds = self.search.tokens;
+        match self.search.initial.kind {
+            Initialiser::Uniform => operators::uniform(bounds, rng),
+            Initialiser::Structured => operators::structured(bounds, rng),
+            Initialiser::Aware => grammar::aware(&self.initial, self.rules, bounds.min..=bounds.max, rng),
+        }
+    }
+
+    fn vary(&self, operator: RuleOperator, expressed: &Tokens, rng: &mut Rng) -> Option<Tokens> {
+        let room = self.search.tokens.max.saturating_sub(expressed.len());
+        match operator {
+            RuleOperator::AppendStrip => grammar::append_strip(&self.initial, self.rules, expressed, room, rng),
+            RuleOperator::AppendDeletion => {
+                grammar::append_deletion(&self.initial, self.rules, expressed, room, rng)
+            }
+            RuleOperator::DropLast => operators::drop_last(expressed),
+            RuleOperator::SwapPair => operators::swap_pair(expressed, rng),
+        }
+    }
+}
+
+impl From<Rejection> for Failure {
+    fn from(rejection: Rejection) -> Self {
+        let violation = Violation::new(rejection.stage(), rejection.measure());
+        Self { violation, reason: rejection.to_string(), structural: false }
+    }
+}
+
+impl From<AnalysisError> for Failure {
+    fn from(error: AnalysisError) -> Self {
+        let stage = match &error {
+            AnalysisError::Mechanism(_) | AnalysisError::Unstable { .. } => 2,
+            _ => FAILED,
+        };
+        Self { violation: Violation::new(stage, 1.0), reason: error.to_string(), structural: true }
+    }
+}
+
+impl From<Failure> for Evaluation {
+    fn from(failure: Failure) -> Self {
+        Self {
+            violation: failure.violation,
+            reason: failure.reason,
+            objectives: Vec::new(),
+            metrics: vec![None; METRICS.len()],
+            structural: failure.structural,
+        }
+    }
+}
