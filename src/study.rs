@@ -8,15 +8,17 @@ use crate::domain::{Domain, DomainError};
 use crate::evolve::{FAILED, Violation};
 use crate::geometry::limits::{self, LimitExcess};
 use crate::geometry::metrics::{self, Fabrication};
-use crate::geometry::{self, Pattern, PatternParams, Rejection, params::Pinched};
+use crate::geometry::params::{Pinched, RulesParam};
+use crate::geometry::{self, Pattern, PatternParams, Rejection};
 use crate::grammar::{self, Decoded, Rules, Tokens};
 use crate::mesh::distance::deletions;
 use crate::mesh::isomorphism::{Equivalence, Symmetry, canonical_mesh_under};
-use crate::mesh::{CanonicalMesh, Code, InitialMesh, QuadMesh};
+use crate::mesh::{BaseMeshError, CanonicalMesh, Code, InitialMesh, QuadMesh};
 use crate::objectives::{self, AnalysedDesign, METRICS, Metric};
 use crate::random::Rng;
-use crate::search::params::{EquivalenceParams, Initialiser};
-use crate::search::{Evaluation, Identity, Problem, RuleOperator, SearchParams, operators, round_significant};
+use crate::search::operators::Growth;
+use crate::search::params::EquivalenceParams;
+use crate::search::{Evaluation, Identity, Problem, RuleOperator, SearchParams, round_significant};
 use crate::skeleton::{self, InitialError};
 use crate::structure::StructureParams;
 use crate::structure::gridshell::{self, AnalysisError, Response};
@@ -54,6 +56,9 @@ pub enum StudyError {
     /// There is no initial mesh.
     #[error("[topology] {0}")]
     Initial(#[from] InitialError),
+    /// The initial mesh is not a valid quad mesh.
+    #[error("[topology] initial: {0}")]
+    Mesh(#[from] BaseMeshError),
 }
 
 /// A design after all stages that it passed.
@@ -99,13 +104,17 @@ impl Study {
     pub fn new(config: &Config, base_dir: &Path) -> Result<Self, StudyError> {
         let surface = surface::build(&config.surface, base_dir)?;
         let domain = Domain::resolve(&config.domain, &surface, base_dir)?;
-        let initial = skeleton::initial(&config.topology, &domain, base_dir)?;
+        let initial = initial_mesh(config, &domain, base_dir)?;
         let objectives = config.objectives.minimise.iter().filter_map(|name| objectives::find(name)).collect();
         Ok(Self {
-            rules: Rules::of(config.topology.rules, &domain),
+            rules: match config.topology.rules {
+                RulesParam::Plain => Rules::Plain,
+                RulesParam::Domain => Rules::Domain,
+            },
             domain,
             surface,
             initial,
+            symmetries: Vec::new(),
             objectives,
             pinched: config.topology.pinched,
             pattern: config.pattern.clone(),
@@ -164,6 +173,11 @@ impl Study {
         .sanitised(self.objectives.len())
     }
 
+    /// How strings grow here.
+    fn growth(&self) -> Growth<'_> {
+        Growth { initial: &self.initial, rules: self.rules, bounds: self.search.tokens }
+    }
+
     /// The codes by which the search tells duplicates (RUN "Redundancy"): the design's own, then those of its
     /// deletions of up to `min_distance` − 1 strips.
     fn neighbourhood(&self, mesh: &QuadMesh, topology: &CanonicalMesh) -> Vec<(Code, u8)> {
@@ -190,6 +204,16 @@ impl Study {
             Err(failure) => failure.into(),
         }
     }
+}
+
+/// The initial mesh of the config with its marks: not sharp where the domain has no corners (GEOMETRY §0.4).
+fn initial_mesh(config: &Config, domain: &Domain, base_dir: &Path) -> Result<InitialMesh, StudyError> {
+    let base = skeleton::initial(&config.topology, domain, base_dir)?;
+    let mut initial = InitialMesh::from_base(&base)?;
+    if domain.mark().is_some() {
+        initial.mesh.blunt(0);
+    }
+    Ok(initial)
 }
 
 impl Design {
@@ -227,24 +251,11 @@ impl Problem for Study {
     }
 
     fn random(&self, rng: &mut Rng) -> Tokens {
-        let bounds = self.search.tokens;
-        match self.search.initial.kind {
-            Initialiser::Uniform => operators::uniform(bounds, rng),
-            Initialiser::Structured => operators::structured(bounds, rng),
-            Initialiser::Aware => grammar::aware(&self.initial, self.rules, bounds.min..=bounds.max, rng),
-        }
+        self.growth().random(self.search.initial.kind, rng)
     }
 
     fn vary(&self, operator: RuleOperator, expressed: &Tokens, rng: &mut Rng) -> Option<Tokens> {
-        let room = self.search.tokens.max.saturating_sub(expressed.len());
-        match operator {
-            RuleOperator::AppendStrip => grammar::append_strip(&self.initial, self.rules, expressed, room, rng),
-            RuleOperator::AppendDeletion => {
-                grammar::append_deletion(&self.initial, self.rules, expressed, room, rng)
-            }
-            RuleOperator::DropLast => operators::drop_last(expressed),
-            RuleOperator::SwapPair => operators::swap_pair(expressed, rng),
-        }
+        self.growth().vary(operator, expressed, rng)
     }
 }
 

@@ -1,12 +1,10 @@
 //! Strings and what they mean: tokens, marker, strip addition and deletion, decoding (GRAMMAR §2–§5).
 
-pub mod append;
 pub mod decode;
 pub mod rules;
 pub mod tokens;
 pub mod walker;
 
-pub use append::{append_deletion, append_strip};
 pub use decode::{Decoded, decode};
 pub use rules::{Rules, Skip};
 pub use tokens::{ParseTokensError, Token, Tokens};

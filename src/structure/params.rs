@@ -283,6 +283,20 @@ pub enum Quantity {
     BucklingFactor,
 }
 
+impl std::fmt::Display for Quantity {
+    /// The name in the config.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Deflection => "deflection",
+            Self::DeflectionVertical => "deflection_vertical",
+            Self::Utilisation => "utilisation",
+            Self::UtilisationAll => "utilisation_all",
+            Self::UtilisationVonMises => "utilisation_von_mises",
+            Self::BucklingFactor => "buckling_factor",
+        })
+    }
+}
+
 mod defaults {
     use super::*;
 
