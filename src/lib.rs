@@ -21,6 +21,7 @@ pub mod objectives;
 pub mod output;
 pub mod random;
 pub mod search;
+pub mod skeleton;
 pub mod structure;
 pub mod study;
 pub mod surface;

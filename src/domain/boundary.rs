@@ -194,6 +194,27 @@ impl BoundaryLoop {
         self.at(self.curve.closest(point, self.surface.is_some()))
     }
 
+    /// Arc length of the point that is locally closest in plan, going down from arc length `s`.
+    pub fn closest_near(&self, point: [f64; 2], s: f64) -> f64 {
+        self.arc_length(self.curve.closest_near(point, self.parameter(s)))
+    }
+
+    /// Arc lengths of points along the loop, ascending from its start: all points of a polyline, and between them so many that
+    /// the plan distance from one to the next is at most `spacing`.
+    pub fn sample(&self, spacing: f64) -> Vec<f64> {
+        const CHORDS: usize = 8;
+        let mut samples = Vec::new();
+        for piece in self.curve.breaks().windows(2) {
+            let at = |share: f64| piece[0] + share * (piece[1] - piece[0]);
+            let corners: Vec<_> =
+                (0..=CHORDS).map(|i| self.curve.point(at(i as f64 / CHORDS as f64))).collect();
+            let length: f64 = corners.windows(2).map(|w| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1])).sum();
+            let count = (1.01 * length / spacing).ceil().max(1.0) as usize;
+            samples.extend((0..count).map(|i| self.arc_length(at(i as f64 / count as f64))));
+        }
+        samples
+    }
+
     /// Whether the stretch from arc length `from` counter-clockwise to `to` is one straight line in plan.
     pub fn is_straight(&self, from: f64, to: f64) -> bool {
         let Curve::Polyline { points } = &self.curve else { return false };

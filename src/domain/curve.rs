@@ -99,6 +99,35 @@ impl Curve {
         }
     }
 
+    /// Parameter of the locally closest point in plan, going down from parameter `t`.
+    pub(super) fn closest_near(&self, [x, y]: [f64; 2], t: f64) -> f64 {
+        match self {
+            Self::Polyline { points } => closest_piece_near([x, y, 0.0], points, t),
+            Self::Ellipse { center, axes, .. } if axes[0] == axes[1] => {
+                let at_center = (x, y) == (center[0], center[1]);
+                if at_center { t } else { self.closest([x, y, 0.0], true) }
+            }
+            Self::Ellipse { axes, .. } => {
+                // Newton on half the squared distance, whose second derivative is |p'|² + (p − x)·p''.
+                let mut t = t;
+                for _ in 0..50 {
+                    let (p, d) = (self.point(t), self.derivative(t));
+                    let second = self.derivative(t + 0.25 * TAU);
+                    let gap = [p[0] - x, p[1] - y];
+                    let slope = gap[0] * d[0] + gap[1] * d[1];
+                    let steepness = (d[0] * d[0] + d[1] * d[1] + gap[0] * second[0] + gap[1] * second[1])
+                        .max(0.1 * axes[0].min(axes[1]).powi(2));
+                    let step = (-slope / steepness).clamp(-0.2, 0.2);
+                    t += step;
+                    if step.abs() < 1e-15 {
+                        break;
+                    }
+                }
+                t.rem_euclid(TAU) % TAU
+            }
+        }
+    }
+
     /// Enclosed plan area, m².
     pub(super) fn area(&self) -> f64 {
         match self {
@@ -167,6 +196,23 @@ impl Curve {
             }
         }
     }
+}
+
+/// The locally closest point of a closed polyline: from piece to piece as long as that comes nearer.
+fn closest_piece_near(p: [f64; 3], points: &[[f64; 3]], t: f64) -> f64 {
+    let count = points.len();
+    let on = |i: usize| closest_on_segment(p, points[i % count], points[(i + 1) % count], 2);
+    let (mut piece, _) = Curve::piece(t, count);
+    let (mut distance2, mut share) = on(piece);
+    for _ in 0..count {
+        let next = (if share >= 1.0 { piece + 1 } else { piece + count - 1 }) % count;
+        let (beyond2, beyond) = on(next);
+        if (share > 0.0 && share < 1.0) || beyond2 >= distance2 {
+            break;
+        }
+        (piece, distance2, share) = (next, beyond2, beyond);
+    }
+    (piece as f64 + share) % count as f64
 }
 
 /// Area by the shoelace formula, positive counter-clockwise, m².

@@ -78,6 +78,11 @@ impl Domain {
         (self.corner_count() == 0).then(|| outer.arc_length(outer.curve.rightmost()))
     }
 
+    /// Height of the surface over (x, y); `None` on a free surface and where it does not reach.
+    pub fn height(&self, x: f64, y: f64) -> Option<f64> {
+        self.loops[0].surface.as_ref()?.height(x, y)
+    }
+
     /// Diagonal of the bounding box in plan, m.
     pub fn size(&self) -> f64 {
         let [low, high] = self.bounds();

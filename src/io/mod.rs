@@ -1,5 +1,6 @@
-//! Files of meshes: OBJ and COMPAS JSON, in and out, as plain arrays.
+//! Mesh files as plain arrays: OBJ and COMPAS JSON.
 
+pub mod compas;
 pub mod obj;
 
 use std::path::{Path, PathBuf};

@@ -1,0 +1,172 @@
+//! From a medial axis with forks to a layout: two quads a branch between forks, one a leaf.
+
+use super::graph::{Branch, End, Fork, Graph, Slot, stretch};
+use super::layout::Layout;
+use super::triangulation::Site;
+use crate::domain::Domain;
+use std::collections::BTreeMap;
+
+/// The vertices of the forks and of their boundary points.
+struct Vertices {
+    forks: BTreeMap<usize, usize>,
+    sites: BTreeMap<(usize, usize), usize>,
+}
+
+/// The layout of a graph with at least one fork.
+pub(super) fn layout(graph: &Graph, domain: &Domain) -> Layout {
+    let mut layout = Layout::default();
+    let mut vertices = Vertices { forks: BTreeMap::new(), sites: BTreeMap::new() };
+    for f in graph.fork_numbers() {
+        let Some(fork) = &graph.forks[f] else { continue };
+        vertices.forks.insert(f, layout.inside(fork.position));
+        for (i, slot) in fork.ring.iter().enumerate() {
+            vertices.sites.insert((f, i), layout.on_boundary(domain, slot.site));
+        }
+    }
+    for (b, branch) in graph.branches.iter().enumerate() {
+        let Some(branch) = branch else { continue };
+        match branch.ends {
+            [End::Fork(f), End::Fork(g)] => corridor(&mut layout, &vertices, graph, domain, b, [f, g]),
+            [End::Fork(f), End::Leaf(tip)] | [End::Leaf(tip), End::Fork(f)] => {
+                leaf(&mut layout, &vertices, graph, domain, b, f, tip);
+            }
+            _ => {}
+        }
+    }
+    layout
+}
+
+/// Fork, slot number and number of slots at an end of a branch.
+fn slot(graph: &Graph, fork: usize, wanted: impl Fn(&Slot) -> bool) -> Option<(&Fork, usize, usize)> {
+    let found = graph.forks[fork].as_ref()?;
+    Some((found, found.ring.iter().position(wanted)?, found.ring.len()))
+}
+
+/// The quad of a leaf: fork, boundary point, tip, boundary point.
+fn leaf(
+    layout: &mut Layout,
+    vertices: &Vertices,
+    graph: &Graph,
+    domain: &Domain,
+    b: usize,
+    f: usize,
+    tip: Site,
+) {
+    let Some((_, i, n)) = slot(graph, f, |s| s.branch == b) else { return };
+    let tip = layout.on_boundary(domain, tip);
+    layout.faces.push([vertices.forks[&f], vertices.sites[&(f, i)], tip, vertices.sites[&(f, (i + 1) % n)]]);
+}
+
+/// The quads on both sides of a branch between forks, with as many stations in between as corners and simplicity ask for.
+fn corridor(
+    layout: &mut Layout,
+    vertices: &Vertices,
+    graph: &Graph,
+    domain: &Domain,
+    b: usize,
+    [f, g]: [usize; 2],
+) {
+    let Some(branch) = &graph.branches[b] else { return };
+    let Some((first, i, n)) = slot(graph, f, |s| s.branch == b && s.end == 0) else { return };
+    let Some((second, j, m)) = slot(graph, g, |s| s.branch == b && s.end == 1) else { return };
+    let ends = [
+        [first.ring[i].site, first.ring[(i + 1) % n].site],
+        [second.ring[(j + 1) % m].site, second.ring[j].site],
+    ];
+    let pairs = stations(branch, ends, needed(graph, b, [f, g]));
+    let mut right: Vec<Site> = std::iter::once(ends[0][0]).chain(pairs.iter().map(|p| p[0])).collect();
+    right.push(ends[1][0]);
+    // The left side runs backwards.
+    let mut left: Vec<Site> = std::iter::once(ends[1][1]).chain(pairs.iter().rev().map(|p| p[1])).collect();
+    left.push(ends[0][1]);
+    spread(domain, &mut right);
+    spread(domain, &mut left);
+    left.reverse();
+    let mut before = [vertices.forks[&f], vertices.sites[&(f, i)], vertices.sites[&(f, (i + 1) % n)]];
+    for k in 1..=pairs.len() {
+        let (r, l) = (layout.on_boundary(domain, right[k]), layout.on_boundary(domain, left[k]));
+        let (p, q) = (layout.vertices[r].xy, layout.vertices[l].xy);
+        let axis = layout.inside([0, 1].map(|k| 0.5 * (p[k] + q[k])));
+        add_pair(layout, before, [axis, r, l]);
+        before = [axis, r, l];
+    }
+    let after = [vertices.forks[&g], vertices.sites[&(g, (j + 1) % m)], vertices.sites[&(g, j)]];
+    add_pair(layout, before, after);
+}
+
+/// The two quads between two cross sections, each given by its axis, right and left vertex.
+fn add_pair(layout: &mut Layout, [a, r, l]: [usize; 3], [b, s, m]: [usize; 3]) {
+    layout.faces.push([a, r, s, b]);
+    layout.faces.push([a, b, m, l]);
+}
+
+/// Stations that keep the mesh simple: one where another branch joins the same forks, two where the forks are the same.
+fn needed(graph: &Graph, b: usize, [f, g]: [usize; 2]) -> usize {
+    if f == g {
+        return 2;
+    }
+    let joins = |other: &Option<Branch>| {
+        other
+            .as_ref()
+            .is_some_and(|o| o.ends == [End::Fork(f), End::Fork(g)] || o.ends == [End::Fork(g), End::Fork(f)])
+    };
+    let parallel = graph.branches.iter().enumerate().any(|(k, other)| k != b && joins(other));
+    usize::from(parallel)
+}
+
+/// Cross sections where a corner lies on a side, and evenly chosen ones up to the number needed.
+fn stations(branch: &Branch, ends: [[Site; 2]; 2], needed: usize) -> Vec<[Site; 2]> {
+    let pairs = &branch.pairs;
+    let mut chosen: Vec<usize> = Vec::new();
+    for side in 0..2 {
+        let mut i = 0;
+        while i < pairs.len() {
+            let site = pairs[i][side];
+            let run = pairs[i..].iter().take_while(|p| p[side] == site).count();
+            if site.corner.is_some() && site != ends[0][side] && site != ends[1][side] {
+                let other = 1 - side;
+                // Rather where the other side has a corner too, or else in the middle.
+                let facing = (i..i + run).find(|&k| {
+                    pairs[k][other].corner.is_some()
+                        && pairs[k][other] != ends[0][other]
+                        && pairs[k][other] != ends[1][other]
+                });
+                chosen.push(facing.unwrap_or(i + run / 2));
+            }
+            i += run;
+        }
+    }
+    chosen.sort_unstable();
+    chosen.dedup();
+    if chosen.len() < needed && !pairs.is_empty() {
+        chosen = (1..=needed).map(|k| k * pairs.len() / (needed + 1)).collect();
+        chosen.dedup();
+    }
+    chosen.into_iter().map(|k| pairs[k]).collect()
+}
+
+/// Puts the sites between the first and the last, in the order of the boundary, clear of each other: corners stay, others are
+/// spaced evenly where two are too close or in the wrong order.
+pub(super) fn spread(domain: &Domain, sites: &mut [Site]) {
+    let (Some(&first), Some(&last), n) = (sites.first(), sites.last(), sites.len()) else { return };
+    let whole = domain.loops[first.loop_number].length();
+    let total = match stretch(domain, first, last) {
+        0.0 => whole,
+        way => way,
+    };
+    let mut ways: Vec<f64> = sites.iter().map(|&s| stretch(domain, first, s)).collect();
+    ways[n - 1] = total;
+    let least = 0.15 * total / n as f64;
+    if ways.windows(2).all(|w| w[1] - w[0] >= least) {
+        return;
+    }
+    let fixed: Vec<usize> = (0..n).filter(|&i| i == 0 || i == n - 1 || sites[i].corner.is_some()).collect();
+    for w in fixed.windows(2) {
+        for i in w[0] + 1..w[1] {
+            let share = (i - w[0]) as f64 / (w[1] - w[0]) as f64;
+            let way = ways[w[0]] + share * (ways[w[1]] - ways[w[0]]);
+            let s = if first.loop_number == 0 { first.s + way } else { first.s - way };
+            sites[i].s = s.rem_euclid(whole) % whole;
+        }
+    }
+}

@@ -1,0 +1,184 @@
+//! Domains whose medial axis has no fork: discs, lenses and drops, rings.
+
+use super::forked::spread;
+use super::graph::{Branch, End, along, stretch};
+use super::layout::Layout;
+use super::triangulation::Site;
+use crate::domain::Domain;
+use std::f64::consts::{FRAC_PI_4, PI, TAU};
+
+/// 4πA/L² of a loop in plan from which on it counts as a disc.
+const ROUND: f64 = 0.95;
+
+/// Whether the domain is one smooth loop, nearly round.
+pub(super) fn is_disc(domain: &Domain) -> bool {
+    let outer = &domain.loops[0];
+    let points: Vec<_> = outer.sample(domain.size() / 200.0).iter().map(|&s| outer.point(s)).collect();
+    let perimeter: f64 = (0..points.len())
+        .map(|i| {
+            let (a, b) = (points[i], points[(i + 1) % points.len()]);
+            (a[0] - b[0]).hypot(a[1] - b[1])
+        })
+        .sum();
+    domain.loops.len() == 1
+        && domain.corner_count() == 0
+        && 4.0 * PI * domain.area() > ROUND * perimeter * perimeter
+}
+
+/// One quad with its corners a quarter of the boundary apart, starting at the mark.
+pub(super) fn disc(domain: &Domain) -> Layout {
+    let length = domain.loops[0].length();
+    let start = domain.mark().unwrap_or(0.0);
+    let sites = [0.0, 0.25, 0.5, 0.75].map(|share| smooth((start + share * length) % length));
+    one_quad(domain, sites)
+}
+
+fn smooth(s: f64) -> Site {
+    Site { loop_number: 0, s, corner: None }
+}
+
+fn one_quad(domain: &Domain, sites: [Site; 4]) -> Layout {
+    let mut layout = Layout::default();
+    let quad = sites.map(|site| layout.on_boundary(domain, site));
+    layout.faces.push(quad);
+    layout
+}
+
+/// One quad from end to end: a corner is one of its corners, a smooth end two, where the boundary has turned by 45°.
+pub(super) fn path(domain: &Domain, branch: &Branch, [start, end]: [Site; 2]) -> Layout {
+    let middle = branch.pairs[branch.pairs.len() / 2];
+    let sites = match (start.corner, end.corner) {
+        (Some(_), Some(_)) => [start, middle[0], end, middle[1]],
+        (Some(_), None) => {
+            let [before, after] = shoulders(domain, end);
+            [start, before, end, after]
+        }
+        (None, Some(_)) => {
+            let [before, after] = shoulders(domain, start);
+            [start, after, end, before]
+        }
+        (None, None) => {
+            let ([l1, r1], [r2, l2]) = (shoulders(domain, start), shoulders(domain, end));
+            [l1, r1, r2, l2]
+        }
+    };
+    one_quad(domain, sites)
+}
+
+/// The points of the outer loop before and after a smooth end at which the boundary has turned by 45°.
+fn shoulders(domain: &Domain, tip: Site) -> [Site; 2] {
+    const STEPS: usize = 2000;
+    let outer = &domain.loops[0];
+    let length = outer.length();
+    let heading = |s: f64| {
+        let t = outer.tangent(s);
+        libm::atan2(t[1], t[0])
+    };
+    let there = heading(tip.s);
+    [-1.0, 1.0].map(|sign| {
+        let turned = |i: &usize| {
+            let turn = sign * (heading(tip.s + sign * *i as f64 / STEPS as f64 * length) - there);
+            turn.rem_euclid(TAU) >= FRAC_PI_4 && turn.rem_euclid(TAU) < PI
+        };
+        let steps = (1..STEPS / 4).find(turned).unwrap_or(STEPS / 8);
+        smooth((tip.s + sign * steps as f64 / STEPS as f64 * length).rem_euclid(length) % length)
+    })
+}
+
+/// A ring of quads between two loops: at the corners of both, and at least four.
+pub(super) fn ring(domain: &Domain, branch: &Branch) -> Option<Layout> {
+    let mut pairs: Vec<[Site; 2]> = branch.pairs.clone();
+    // Outer site first, in the order of the outer loop.
+    if pairs.first()?[0].loop_number != 0 {
+        pairs = pairs.iter().rev().map(|&[right, left]| [left, right]).collect();
+    }
+    if pairs.iter().any(|[o, h]| o.loop_number != 0 || h.loop_number == 0) {
+        return None;
+    }
+    let mut chosen = corner_sections(&pairs);
+    if chosen.is_empty() {
+        let mark = smooth(domain.mark().unwrap_or(0.0));
+        let near = |p: &[Site; 2]| {
+            let way = stretch(domain, mark, p[0]);
+            way.min(domain.loops[0].length() - way)
+        };
+        let start = (0..pairs.len()).min_by(|&i, &j| near(&pairs[i]).total_cmp(&near(&pairs[j])))?;
+        pairs[start][0] = mark;
+        chosen.push(start);
+    }
+    while chosen.len() < 4 {
+        let widest = widest_gap(domain, &pairs, &chosen)?;
+        chosen.push(widest);
+        chosen.sort_unstable();
+    }
+    // Once around from the first section, so that both sides can be spread.
+    let mut outer: Vec<Site> = chosen.iter().map(|&k| pairs[k][0]).collect();
+    let mut inner: Vec<Site> = chosen.iter().map(|&k| pairs[k][1]).collect();
+    outer.push(outer[0]);
+    inner.push(inner[0]);
+    inner.reverse();
+    spread(domain, &mut outer);
+    spread(domain, &mut inner);
+    inner.reverse();
+    let n = chosen.len();
+    let mut layout = Layout::default();
+    let rings = [outer, inner]
+        .map(|sites| sites[..n].iter().map(|&s| layout.on_boundary(domain, s)).collect::<Vec<_>>());
+    for i in 0..n {
+        let j = (i + 1) % n;
+        layout.faces.push([rings[0][i], rings[0][j], rings[1][j], rings[1][i]]);
+    }
+    Some(layout)
+}
+
+/// For every corner of either loop, the cross section in the middle of those that touch it.
+fn corner_sections(pairs: &[[Site; 2]]) -> Vec<usize> {
+    let n = pairs.len();
+    let mut chosen = Vec::new();
+    for side in 0..2 {
+        // Begin where a new site begins, so that no run is cut.
+        let Some(start) = (0..n).find(|&i| pairs[i][side] != pairs[(i + n - 1) % n][side]) else { continue };
+        let mut i = 0;
+        while i < n {
+            let at = |k: usize| pairs[(start + k) % n][side];
+            let run = (i..n).take_while(|&k| at(k) == at(i)).count();
+            if at(i).corner.is_some() {
+                chosen.push((start + i + run / 2) % n);
+            }
+            i += run;
+        }
+    }
+    chosen.sort_unstable();
+    chosen.dedup();
+    chosen
+}
+
+/// The cross section nearest to the middle of the widest gap on the outer loop.
+fn widest_gap(domain: &Domain, pairs: &[[Site; 2]], chosen: &[usize]) -> Option<usize> {
+    let n = chosen.len();
+    let length = domain.loops[0].length();
+    let gap = |i: usize| match stretch(domain, pairs[chosen[i]][0], pairs[chosen[(i + 1) % n]][0]) {
+        0.0 => length,
+        way => way,
+    };
+    let widest = (0..n).fold(0, |best, i| if gap(i) > gap(best) * (1.0 + 1e-9) { i } else { best });
+    let from = pairs[chosen[widest]][0];
+    let middle = if n == 1 {
+        smooth((from.s + 0.5 * length) % length)
+    } else {
+        along(domain, from, pairs[chosen[(widest + 1) % n]][0], 0.5)
+    };
+    let near = |k: usize| {
+        let way = stretch(domain, middle, pairs[k][0]);
+        way.min(length - way)
+    };
+    (0..pairs.len()).filter(|k| !chosen.contains(k)).min_by(|&i, &j| near(i).total_cmp(&near(j)))
+}
+
+/// The ends of a branch that is a path.
+pub(super) fn path_ends(branch: &Branch) -> Option<[Site; 2]> {
+    match branch.ends {
+        [End::Leaf(a), End::Leaf(b)] if !branch.pairs.is_empty() => Some([a, b]),
+        _ => None,
+    }
+}

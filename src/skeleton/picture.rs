@@ -1,0 +1,86 @@
+//! The initial mesh as a plan picture: boundary curves, coarse edges, singular vertices with their valence, corners, marker.
+
+use crate::domain::Domain;
+use crate::mesh::{BaseMesh, BaseMeshError, InitialMesh};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+
+/// Longest side of the drawing, in SVG units.
+const SIZE: f64 = 800.0;
+const MARGIN: f64 = 30.0;
+
+/// The plan, y up. Orange: fewer edges than regular; blue: more; white: corners; green: the marker.
+///
+/// # Errors
+/// A mesh that is not valid.
+pub fn svg(base: &BaseMesh, domain: &Domain, title: &str) -> Result<String, BaseMeshError> {
+    let mesh = InitialMesh::from_base(base)?;
+    let [low, high] = domain.bounds();
+    let scale = SIZE / (high[0] - low[0]).max(high[1] - low[1]);
+    let at = |p: &[f64; 3]| [MARGIN + scale * (p[0] - low[0]), MARGIN + scale * (high[1] - p[1])];
+    let (width, height) = (2.0 * MARGIN + scale * (high[0] - low[0]), 2.0 * MARGIN + scale * (high[1] - low[1]));
+    let title = title.replace('&', "&amp;").replace('<', "&lt;");
+    let mut text = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.1} {height:.1}\">\n<title>{title}</title>\n\
+         <style>.edge{{stroke:#7a7266;stroke-width:1.6;fill:none}}.boundary{{stroke:#111;stroke-width:3;fill:none}}\
+         .marker{{stroke:#009e73;stroke-width:5}}text{{font:bold 13px sans-serif;fill:#fff;text-anchor:middle}}\
+         .number{{font:10px sans-serif;fill:#777;text-anchor:start}}</style>\n\
+         <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
+    );
+    for [a, b] in inner_edges(base) {
+        let ([x, y], [u, v]) = (at(&base.vertices[a as usize]), at(&base.vertices[b as usize]));
+        let _ = writeln!(text, "<path class=\"edge\" d=\"M{x:.1} {y:.1}L{u:.1} {v:.1}\"/>");
+    }
+    for boundary in &domain.loops {
+        let points = boundary.sample(domain.size() / 300.0);
+        let outline: String = points.iter().map(|&s| at(&boundary.point(s))).fold(String::new(), |mut o, [x, y]| {
+            let _ = write!(o, "{}{x:.1} {y:.1}", if o.is_empty() { "M" } else { "L" });
+            o
+        });
+        let _ = writeln!(text, "<path class=\"boundary\" d=\"{outline}Z\"/>");
+    }
+    let (from, to) = (mesh.mesh.origin(mesh.marker).index(), mesh.mesh.end(mesh.marker).index());
+    let ([x, y], [u, v]) = (at(&base.vertices[from]), at(&base.vertices[to]));
+    let (u, v) = (x + 0.4 * (u - x), y + 0.4 * (v - y));
+    let _ = writeln!(text, "<path class=\"marker\" d=\"M{x:.1} {y:.1}L{u:.1} {v:.1}\"/>");
+    vertices(&mut text, base, at);
+    text.push_str("</svg>\n");
+    Ok(text)
+}
+
+/// Every edge with faces on both sides, once.
+fn inner_edges(base: &BaseMesh) -> Vec<[u32; 2]> {
+    let darts: BTreeSet<[u32; 2]> = darts(base).collect();
+    darts.iter().copied().filter(|&[a, b]| a < b && darts.contains(&[b, a])).collect()
+}
+
+fn darts(base: &BaseMesh) -> impl Iterator<Item = [u32; 2]> + '_ {
+    base.faces.iter().flat_map(|f| (0..f.len()).map(move |k| [f[k], f[(k + 1) % f.len()]]))
+}
+
+/// Singular vertices with their valence, corners, and all vertex numbers.
+fn vertices(text: &mut String, base: &BaseMesh, at: impl Fn(&[f64; 3]) -> [f64; 2]) {
+    let mut neighbours: BTreeMap<u32, BTreeSet<u32>> = BTreeMap::new();
+    let directed: BTreeSet<[u32; 2]> = darts(base).collect();
+    let mut boundary = BTreeSet::new();
+    for &[a, b] in &directed {
+        neighbours.entry(a).or_default().insert(b);
+        neighbours.entry(b).or_default().insert(a);
+        if !directed.contains(&[b, a]) {
+            boundary.extend([a, b]);
+        }
+    }
+    let corners: BTreeSet<u32> = base.corners.iter().flatten().copied().collect();
+    for (&v, around) in &neighbours {
+        let [x, y] = at(&base.vertices[v as usize]);
+        let _ = writeln!(text, "<text class=\"number\" x=\"{:.1}\" y=\"{:.1}\">{v}</text>", x + 6.0, y - 6.0);
+        let regular = if boundary.contains(&v) { 3 } else { 4 };
+        if corners.contains(&v) {
+            let _ = writeln!(text, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"6\" fill=\"#fff\" stroke=\"#111\" stroke-width=\"2\"/>");
+        } else if around.len() != regular {
+            let fill = if around.len() < regular { "#d55e00" } else { "#0072b2" };
+            let _ = writeln!(text, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"10\" fill=\"{fill}\"/>");
+            let _ = writeln!(text, "<text x=\"{x:.1}\" y=\"{:.1}\">{}</text>", y + 4.5, around.len());
+        }
+    }
+}
