@@ -105,7 +105,8 @@ impl Study {
         let surface = surface::build(&config.surface, base_dir)?;
         let domain = Domain::resolve(&config.domain, &surface, base_dir)?;
         let initial = initial_mesh(config, &domain, base_dir)?;
-        let objectives = config.objectives.minimise.iter().filter_map(|name| objectives::find(name)).collect();
+        let objectives =
+            config.objectives.minimise.iter().filter_map(|name| objectives::find(name)).collect();
         Ok(Self {
             rules: match config.topology.rules {
                 RulesParam::Plain => Rules::Plain,
