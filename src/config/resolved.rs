@@ -6,10 +6,6 @@ use sha2::{Digest, Sha256};
 use std::fmt::Write;
 use toml::Value;
 
-/// Keys in which a resumed run may differ from the one it goes on with: threads, and when to stop.
-pub const MAY_CHANGE_ON_RESUME: [&str; 5] =
-    ["run.threads", "search.generations", "search.evaluations", "search.minutes", "search.stall_generations"];
-
 /// Fills in defaults that depend on other keys.
 pub(super) fn fill_in(config: &mut Config) {
     if let Some(structure) = &config.structure {

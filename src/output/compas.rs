@@ -1,20 +1,20 @@
 //! COMPAS 2 JSON (`compas.datastructures/Mesh`), as COMPAS 2.15 reads it.
 
-use crate::geometry::Pattern;
+use super::polygons::Polygons;
 use serde_json::{Map, Value, json};
 
-/// A pattern as a COMPAS mesh, in metres, z up; each face carries the number of its coarse face.
+/// A mesh as a COMPAS mesh, in metres, z up; each panel carries the number of its coarse face.
 ///
-/// No `guid`: it would be drawn at random. Non-finite numbers do not occur in a pattern.
-pub fn compas(pattern: &Pattern, id: &str) -> Vec<u8> {
+/// No `guid`: it would be drawn at random. Non-finite numbers do not occur in a mesh.
+pub fn compas(mesh: &Polygons<'_>, id: &str) -> Vec<u8> {
     let numbered = |values: Vec<Value>| -> Map<String, Value> {
         values.into_iter().enumerate().map(|(key, value)| (key.to_string(), value)).collect()
     };
-    let vertices = pattern.positions.iter().map(|[x, y, z]| json!({"x": x, "y": y, "z": z})).collect();
-    let faces = pattern.panels.iter().map(|panel| json!(panel.corners())).collect();
-    let face_data = pattern.coarse_face.iter().map(|face| json!({"coarse_face": face})).collect();
+    let vertices = mesh.positions.iter().map(|[x, y, z]| json!({"x": x, "y": y, "z": z})).collect();
+    let faces = mesh.faces.iter().map(|face| json!(face)).collect();
+    let face_data = mesh.coarse_faces.iter().map(|face| json!({"coarse_face": face})).collect();
     let last = |count: usize| count as i64 - 1;
-    let mesh = json!({
+    let document = json!({
         "dtype": "compas.datastructures/Mesh",
         "data": {
             "attributes": {
@@ -29,13 +29,13 @@ pub fn compas(pattern: &Pattern, id: &str) -> Vec<u8> {
             "face": numbered(faces),
             "facedata": numbered(face_data),
             "edgedata": {},
-            "max_vertex": last(pattern.positions.len()),
-            "max_face": last(pattern.panels.len()),
+            "max_vertex": last(mesh.positions.len()),
+            "max_face": last(mesh.faces.len()),
         },
         "inheritance": [],
         "name": id,
     });
-    let mut bytes = mesh.to_string().into_bytes();
+    let mut bytes = document.to_string().into_bytes();
     bytes.push(b'\n');
     bytes
 }
@@ -47,7 +47,8 @@ mod tests {
 
     #[test]
     fn has_every_key_of_the_schema() {
-        let mesh: Value = serde_json::from_slice(&compas(&square_with_pole(), "0123456789ab")).unwrap();
+        let mesh: Value =
+            serde_json::from_slice(&compas(&Polygons::from(&square_with_pole()), "0123456789ab")).unwrap();
         assert_eq!(mesh["dtype"], "compas.datastructures/Mesh");
         let keys: Vec<&str> = mesh["data"].as_object().unwrap().keys().map(String::as_str).collect();
         let expected = [

@@ -1,6 +1,7 @@
 //! The results folder: where each file is, who may write, and whether a run is finished.
 
 use super::atomic;
+use super::manifest::{Manifest, Status};
 use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -95,7 +96,12 @@ impl Folder {
             Err(TryLockError::Error(source)) => return Err(io(&lock_path)(source)),
         }
         let folder = Self { path: path.to_path_buf(), _lock: lock };
-        let (finished, checkpoint) = (folder.join(PARETO).exists(), has_checkpoint(path));
+        // An interrupted run has tables too; the manifest tells them apart.
+        let finished = match Manifest::read(path) {
+            Some(manifest) => manifest.status == Status::Finished,
+            None => folder.join(PARETO).exists(),
+        };
+        let checkpoint = has_checkpoint(path);
         match opening {
             // A run that was stopped by its limits keeps its checkpoint: raised limits let it go on.
             Opening::Resume => {}
@@ -124,6 +130,14 @@ impl Folder {
         for name in files.into_iter().chain(excel.iter().map(String::as_str)) {
             self.remove(name, |path| fs::remove_file(path))?;
         }
+        self.clear_designs()
+    }
+
+    /// Removes the files of all designs: the front of a run that goes on may lose some.
+    ///
+    /// # Errors
+    /// [`FolderError::Io`].
+    pub fn clear_designs(&self) -> Result<(), FolderError> {
         for name in [DESIGNS, DESIGN_EXPLORER] {
             self.remove(name, |path| fs::remove_dir_all(path))?;
         }

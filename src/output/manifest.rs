@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Version of the manifest's own layout.
@@ -102,6 +103,11 @@ impl Host {
 }
 
 impl Manifest {
+    /// The manifest of a results folder, if it has one that can be read.
+    pub fn read(folder: &Path) -> Option<Self> {
+        serde_json::from_slice(&std::fs::read(folder.join(super::folder::MANIFEST)).ok()?).ok()
+    }
+
     /// The file.
     pub fn to_json(&self) -> Vec<u8> {
         // Plain strings and numbers: nothing here can fail to be written.
@@ -136,6 +142,37 @@ fn civil(days: u64) -> (u64, u64, u64) {
 mod tests {
     use super::*;
     use std::time::Duration;
+
+    impl Manifest {
+        pub(crate) fn sample(status: Status) -> Self {
+            Self {
+                manifest_version: VERSION,
+                program: "quadrille".into(),
+                program_version: "0.1.0".into(),
+                name: "sample".into(),
+                objectives: vec!["mass_kg".into()],
+                seed: 1,
+                threads: 2,
+                status,
+                ended_by: "25 generations".into(),
+                started: timestamp(UNIX_EPOCH),
+                ended: timestamp(UNIX_EPOCH),
+                counts: Counts::default(),
+                seconds: 1.5,
+                host: Host::here(),
+                config: String::new(),
+                config_folder: ".".into(),
+                config_sha256: String::new(),
+                input_files: BTreeMap::new(),
+            }
+        }
+    }
+
+    #[test]
+    fn reads_what_it_writes() {
+        let manifest = Manifest::sample(Status::Finished);
+        assert_eq!(serde_json::from_slice::<Manifest>(&manifest.to_json()).unwrap(), manifest);
+    }
 
     #[test]
     fn timestamps() {

@@ -9,6 +9,7 @@ pub mod generations;
 pub mod manifest;
 pub mod number;
 pub mod obj;
+pub mod polygons;
 pub mod report;
 #[cfg(test)]
 mod sample;

@@ -1,21 +1,21 @@
 //! Wavefront OBJ.
 
 use super::number::shortest;
-use crate::geometry::Pattern;
+use super::polygons::Polygons;
 use std::fmt::Write;
 
-/// A pattern as OBJ: metres, z up, positive indices, quads and triangles, all digits.
+/// A mesh as OBJ: metres, z up, positive indices, all digits.
 ///
 /// COMPAS welds vertices at 3 decimals unless it is told otherwise: `Mesh.from_obj(path, precision=9)`.
-pub fn obj(pattern: &Pattern, id: &str) -> Vec<u8> {
+pub fn obj(mesh: &Polygons<'_>, id: &str) -> Vec<u8> {
     let mut text = format!("# quadrille {}\n# units: m\n# z up\no {id}\n", env!("CARGO_PKG_VERSION"));
-    for position in &pattern.positions {
+    for position in mesh.positions {
         let [x, y, z] = position.map(|c| shortest(c).unwrap_or_default());
         let _ = writeln!(text, "v {x} {y} {z}");
     }
-    for panel in &pattern.panels {
+    for face in &mesh.faces {
         text.push('f');
-        for vertex in panel.corners() {
+        for vertex in *face {
             let _ = write!(text, " {}", vertex + 1);
         }
         text.push('\n');
@@ -30,7 +30,7 @@ mod tests {
 
     #[test]
     fn is_written_whole() {
-        let text = String::from_utf8(obj(&square_with_pole(), "0123456789ab")).unwrap();
+        let text = String::from_utf8(obj(&Polygons::from(&square_with_pole()), "0123456789ab")).unwrap();
         let expected = "# units: m\n# z up\no 0123456789ab\n\
             v 0 0 0\nv 1 0 0\nv 2 0.3333333333333333 0\nv 0 1 0.5\nv 1 1 0.25\nf 1 2 5 4\nf 3 5 2\n";
         assert!(text.ends_with(expected), "{text}");

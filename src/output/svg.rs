@@ -2,6 +2,7 @@
 
 use super::number::rounded;
 use crate::geometry::Pattern;
+use crate::geometry::metrics::valences;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -170,10 +171,7 @@ pub enum Mark {
 /// The marked vertices, in order: singular ones (inner valence not 4, boundary valence not 3), poles, corners.
 pub fn singular_vertices(pattern: &Pattern) -> Vec<(u32, Mark)> {
     let count = pattern.positions.len();
-    let mut valence = vec![0usize; count];
-    for vertex in pattern.edges.iter().flatten() {
-        valence[*vertex as usize] += 1;
-    }
+    let valence = valences(pattern);
     let mut regular = vec![4usize; count];
     for &vertex in pattern.loops.iter().flatten() {
         regular[vertex as usize] = 3;
