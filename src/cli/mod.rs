@@ -6,10 +6,13 @@
 mod check;
 mod completions;
 mod console;
+mod decode;
+mod distance;
 mod error;
 mod exit;
 mod frame;
 mod init;
+mod topology;
 
 pub use console::{Console, ConsoleArgs};
 pub use error::CliError;
@@ -33,6 +36,8 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    Decode(decode::Args),
+    Distance(distance::Args),
     Check(check::Args),
     Init(init::Args),
     Completions(completions::Args),
@@ -44,6 +49,8 @@ pub fn main() -> ExitCode {
     let Cli { console, command } = Cli::parse();
     let console = Console::new(&console);
     let result = match command {
+        Command::Decode(args) => decode::run(&args),
+        Command::Distance(args) => distance::run(&args),
         Command::Check(args) => check::run(args, &console),
         Command::Init(args) => init::run(args, &console),
         Command::Frame(args) => frame::run(args, &console),
