@@ -12,6 +12,7 @@ mod error;
 mod exit;
 mod frame;
 mod init;
+mod skeleton;
 mod topology;
 
 pub use console::{Console, ConsoleArgs};
@@ -42,6 +43,7 @@ enum Command {
     Init(init::Args),
     Completions(completions::Args),
     Frame(frame::Args),
+    Skeleton(skeleton::Args),
 }
 
 /// Runs the program and gives its exit code.
@@ -54,6 +56,7 @@ pub fn main() -> ExitCode {
         Command::Check(args) => check::run(args, &console),
         Command::Init(args) => init::run(args, &console),
         Command::Frame(args) => frame::run(args, &console),
+        Command::Skeleton(args) => skeleton::run(args, &console),
         Command::Completions(args) => completions::run::<Cli>(args),
     };
     result.unwrap_or_else(|error| {
