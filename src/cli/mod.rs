@@ -12,6 +12,7 @@ mod error;
 mod exit;
 mod frame;
 mod init;
+mod report;
 mod skeleton;
 mod topology;
 
@@ -43,6 +44,7 @@ enum Command {
     Init(init::Args),
     Completions(completions::Args),
     Frame(frame::Args),
+    Report(report::Args),
     Skeleton(skeleton::Args),
 }
 
@@ -56,6 +58,7 @@ pub fn main() -> ExitCode {
         Command::Check(args) => check::run(args, &console),
         Command::Init(args) => init::run(args, &console),
         Command::Frame(args) => frame::run(args, &console),
+        Command::Report(args) => report::run(args, &console),
         Command::Skeleton(args) => skeleton::run(args, &console),
         Command::Completions(args) => completions::run::<Cli>(args),
     };
