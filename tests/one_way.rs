@@ -11,7 +11,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("grammar", &["mesh", "random"]),
     ("io", &["mesh"]),
     ("surface", &["io"]),
-    ("domain", &["io", "surface"]),
+    ("domain", &["mesh", "io", "surface"]),
     ("skeleton", &["mesh", "io", "surface", "domain", "geometry"]),
     ("geometry", &["mesh", "surface", "domain"]),
     ("structure", &["geometry", "random"]),

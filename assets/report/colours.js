@@ -13,7 +13,7 @@ for (const field of FIELDS) {
   const holders = Object.values(packedMeshes).map((m) => m[field.key]).filter(Boolean);
   field.available = holders.length > 0;
   // One scale for all designs: a colour means the same everywhere on the page.
-  field.top = niceTop(d3.max(holders, (f) => f.high) || 1);
+  field.top = niceTop(d3.quantile(holders, 0.9, (f) => f.high) || 1);
   field.colours = d3.range(BINS).map((i) => d3.color(field.scheme(0.08 + (0.9 * i) / (BINS - 1))).formatHex());
 }
 const fieldByKey = new Map(FIELDS.map((f) => [f.key, f]));
@@ -35,6 +35,7 @@ const bestToWorst = d3.interpolateRgbBasis(["#7db9dc", "#c9dfe9", "#f7f5ef", "#f
 // Lines and points: by family (Okabe and Ito's colours), or by one objective.
 const OKABE_ITO = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#8a7f00"];
 const OTHER = "#9a9a94";
+const PAINT = (r) => d3.interpolateViridis(0.82 * (1 - r));
 function paintOf(design) {
   if (state.paint === "none") return null;
   if (state.paint === "family") {
@@ -42,5 +43,5 @@ function paintOf(design) {
     return i < OKABE_ITO.length ? OKABE_ITO[i] : OTHER;
   }
   const r = relative(design, objectives[Number(state.paint)]);
-  return r === null ? OTHER : d3.interpolateViridis(0.92 * (1 - r));
+  return r === null ? OTHER : PAINT(r);
 }

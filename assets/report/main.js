@@ -21,6 +21,7 @@ function startToolbar() {
   const paint = byId("paint");
   for (const [key, text] of [["none", "one colour"], ...objectives.map((o, i) => [String(i), o.label]), ["family", "family"]]) paint.add(new Option(text, key));
   paint.addEventListener("change", () => { state.paint = paint.value; changed("paint"); });
+  events.on("paint.key", () => { byId("paint-key").innerHTML = paintKey(); });
   byId("clear").addEventListener("click", () => { state.limits.clear(); state.family = null; changed("limits"); });
   byId("previous").addEventListener("click", () => step(-1));
   byId("next").addEventListener("click", () => step(1));
@@ -32,6 +33,15 @@ function startToolbar() {
   };
   events.on("limits.count", count);
   count();
+}
+
+/** What the colours of lines and points mean. */
+function paintKey() {
+  if (state.paint === "none") return "";
+  if (state.paint !== "family") return `best <span class="paint-ramp" style="background:linear-gradient(to right,${d3.range(0, 1.01, 0.1).map(PAINT).join(",")})"></span> worst`;
+  const named = families.slice(0, OKABE_ITO.length).map((f, i) => `<span class="swatch" style="background:${OKABE_ITO[i]}"></span>${f.letter}`);
+  if (families.length > OKABE_ITO.length) named.push(`<span class="swatch" style="background:${OTHER}"></span>others`);
+  return named.join(" ");
 }
 
 /** The same limits as the brushes, by numbers and so by keyboard. */
@@ -76,13 +86,14 @@ function startFields() {
   events.on("field.legend", writeLegend);
   writeLegend();
 }
+const MARK_KEY = `Singular vertices: <span style="color:${MARKS[0]}">▲</span> fewer edges than regular, <span style="color:${MARKS[1]}">■</span> more, <span class="pole">◆</span> pole.`;
 function writeLegend() {
   const field = fieldByKey.get(state.field), box = byId("legend");
-  if (!field) { box.innerHTML = "<p class='small'><span class='dot'></span> singular vertices</p>"; return; }
+  if (!field) { box.innerHTML = `<p class="small">${MARK_KEY}</p>`; return; }
   const ticks = d3.range(0, 5).map((i) => (field.top * i) / 4);
   box.innerHTML = `<div class="ramp" style="background:linear-gradient(to right,${field.colours.join(",")})"></div>
     <div class="ramp-ticks">${ticks.map((t, i) => `<span>${i === 4 ? "≥ " : ""}${number(t)}</span>`).join("")}</div>
-    <p class="small"><b>${field.label}</b> (ratio, no unit): ${field.meaning}. One scale for all designs. <span class="dot"></span> singular vertices.</p>`;
+    <p class="small"><b>${field.label}</b> (ratio, no unit): ${field.meaning}. One scale for all designs.<br>${MARK_KEY}</p>`;
 }
 
 /** The picked design in the address, so that a link leads to it. */

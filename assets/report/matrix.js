@@ -78,7 +78,8 @@ function startMatrix() {
       const found = d3.least(points.filter((d) => d.baseline || kept(d)), (d) => Math.hypot(x(value(d, ox)) - px, y(value(d, oy)) - py));
       return found && Math.hypot(x(value(found, ox)) - px, y(value(found, oy)) - py) < 12 ? found : null;
     };
-    const brush = d3.brush().extent([[1, 1], [cell - 1, rowHeight - 1]]).on("end", (event) => {
+    // By touch a drag scrolls the page, a tap picks; limits are set on the axes above.
+    const brush = d3.brush().touchable(false).extent([[1, 1], [cell - 1, rowHeight - 1]]).on("end", (event) => {
       if (!event.sourceEvent) return;
       if (!event.selection) { pick(near(event.sourceEvent)); return; }
       const [[x0, y0], [x1, y1]] = event.selection;

@@ -48,10 +48,14 @@ function mostBalanced(candidates) {
 const balanced = mostBalanced(frontDesigns) ?? designs[0];
 
 // Families: the same singularities inside and the same number of poles.
-function familyKey({ inner, poles }) {
+function familyKey(singularities) {
+  if (!singularities) return "";
+  const { inner, poles } = singularities;
   return JSON.stringify([Object.entries(inner).map(([v, n]) => [Number(v), n]).sort((a, b) => a[0] - b[0]), poles]);
 }
-function familyText({ inner, poles }) {
+function familyText(singularities) {
+  if (!singularities) return "not known";
+  const { inner, poles } = singularities;
   const parts = Object.entries(inner).map(([valence, n]) => `${n} with ${valence} edges`);
   if (poles) parts.push(`${poles} ${poles === 1 ? "pole" : "poles"}`);
   return parts.length ? parts.join(", ") : "none";

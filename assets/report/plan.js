@@ -1,6 +1,8 @@
 // Plan pictures, drawn on canvas: the thumbnails, and the picked design where there is no WebGL.
 
-const INK = "#4a5059", PAPER = "#faf9f6", PANEL = "#e4e2dc", MARK = "#c2185b";
+const INK = "#4a5059", PAPER = "#faf9f6", PANEL = "#e4e2dc";
+// Singular vertices, as in designs/ID.svg: fewer members than regular, more, pole.
+const MARKS = ["#d55e00", "#0072b2", "#000000"];
 
 /** Draws a mesh from above into a canvas of `size` CSS pixels, x to the right, y up. */
 function drawPlan(canvas, mesh, size, field) {
@@ -20,12 +22,20 @@ function drawPlan(canvas, mesh, size, field) {
   strokeMembers(context, mesh, at, () => true, INK + faint, line * 0.7);
   if (field && field.on === "members" && mesh[field.key]) colourMembers(context, mesh, at, field, line);
   strokeMembers(context, mesh, at, (m) => mesh.boundary[m], INK, line * 1.8);
-  context.fillStyle = MARK;
-  for (const v of mesh.singular) {
-    context.beginPath();
-    context.arc(at.x(v), at.y(v), Math.max(1.8, size / 75) * ratio, 0, 2 * Math.PI);
-    context.fill();
-  }
+  for (const [v, kind] of mesh.singular) drawMark(context, at.x(v), at.y(v), Math.max(2.6, size / 55) * ratio, kind);
+}
+
+/** A triangle, a square or a diamond. */
+function drawMark(context, x, y, r, kind) {
+  const corners = [[[0, -1.25], [1.1, 0.75], [-1.1, 0.75]], [[-0.85, -0.85], [0.85, -0.85], [0.85, 0.85], [-0.85, 0.85]], [[0, -1.2], [1.2, 0], [0, 1.2], [-1.2, 0]]][kind];
+  context.beginPath();
+  for (const [dx, dy] of corners) context.lineTo(x + r * dx, y + r * dy);
+  context.closePath();
+  context.fillStyle = MARKS[kind];
+  context.strokeStyle = "#ffffff";
+  context.lineWidth = r * 0.35;
+  context.stroke();
+  context.fill();
 }
 
 function planScale({ positions, vertices }, pixels, margin) {

@@ -17,10 +17,16 @@ const MEMBER_SHADER = {
   fragment: PANEL_SHADER.fragment,
 };
 const POINT_SHADER = {
-  vertex: `attribute vec3 position; uniform mat4 camera; uniform float size;
-    void main() { gl_Position = camera * vec4(position, 1.0); gl_Position.z -= 0.006 * gl_Position.w; gl_PointSize = size; }`,
-  fragment: `precision mediump float; uniform vec3 tint;
-    void main() { if (length(gl_PointCoord - 0.5) > 0.5) discard; gl_FragColor = vec4(tint, 1.0); }`,
+  vertex: `attribute vec3 position; attribute float kind; uniform mat4 camera; uniform float size; varying float shape;
+    void main() { shape = kind; gl_Position = camera * vec4(position, 1.0); gl_Position.z -= 0.006 * gl_Position.w; gl_PointSize = size; }`,
+  fragment: `precision mediump float; uniform vec3 tints[3]; varying float shape;
+    float outside(vec2 p) {
+      if (shape < 0.5) return max(abs(p.x) * 0.86 - (p.y + 0.75) * 0.5, p.y - 0.5);
+      if (shape < 1.5) return max(abs(p.x), abs(p.y)) - 0.62;
+      return abs(p.x) + abs(p.y) - 0.86; }
+    void main() { float d = outside((gl_PointCoord - 0.5) * 2.0); if (d > 0.14) discard;
+      vec3 tint = shape < 0.5 ? tints[0] : shape < 1.5 ? tints[1] : tints[2];
+      gl_FragColor = vec4(d > 0.0 ? vec3(1.0) : tint, 1.0); }`,
 };
 const VIEWS = { tilted: [-0.62, 0.62], plan: [0, Math.PI / 2], side: [0, 0.06] };
 const HOME = "tilted";
@@ -85,7 +91,7 @@ function showDesign() {
     if (first) setView(HOME);
     uploadPanels(shown);
     uploadMembers(shown);
-    upload("points", Float32Array.from(shown.singular.flatMap((v) => [...shown.positions.subarray(3 * v, 3 * v + 3)])));
+    upload("points", Float32Array.from(shown.singular.flatMap(([v, kind]) => [...shown.positions.subarray(3 * v, 3 * v + 3), kind])));
     counts.points = shown.singular.length;
   }
   requestDraw();
@@ -194,9 +200,9 @@ function draw() {
   run(programs.panels, "panels", "panelTints", [["position", 3, 0], ["normal", 3, 12]], 24, counts.panels, gl.TRIANGLES);
   run(programs.members, "members", "memberTints", [["from", 3, 0], ["to", 3, 12], ["place", 3, 24]], 36, counts.members, gl.TRIANGLES,
     (program) => gl.uniform2f(gl.getUniformLocation(program, "screen"), w / ratio, h / ratio));
-  run(programs.points, "points", null, [["position", 3, 0]], 12, counts.points, gl.POINTS, (program) => {
-    gl.uniform1f(gl.getUniformLocation(program, "size"), 9 * ratio);
-    gl.uniform3fv(gl.getUniformLocation(program, "tint"), rgb(MARK).map((c) => c / 255));
+  run(programs.points, "points", null, [["position", 3, 0], ["kind", 1, 12]], 16, counts.points, gl.POINTS, (program) => {
+    gl.uniform1f(gl.getUniformLocation(program, "size"), 13 * ratio);
+    gl.uniform3fv(gl.getUniformLocation(program, "tints"), MARKS.flatMap(rgb).map((c) => c / 255));
   });
 }
 

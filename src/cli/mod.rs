@@ -6,10 +6,15 @@
 mod check;
 mod completions;
 mod console;
+mod decode;
+mod distance;
 mod error;
 mod exit;
 mod frame;
 mod init;
+mod report;
+mod skeleton;
+mod topology;
 
 pub use console::{Console, ConsoleArgs};
 pub use error::CliError;
@@ -33,10 +38,14 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    Decode(decode::Args),
+    Distance(distance::Args),
     Check(check::Args),
     Init(init::Args),
     Completions(completions::Args),
     Frame(frame::Args),
+    Report(report::Args),
+    Skeleton(skeleton::Args),
 }
 
 /// Runs the program and gives its exit code.
@@ -44,9 +53,13 @@ pub fn main() -> ExitCode {
     let Cli { console, command } = Cli::parse();
     let console = Console::new(&console);
     let result = match command {
+        Command::Decode(args) => decode::run(&args),
+        Command::Distance(args) => distance::run(&args),
         Command::Check(args) => check::run(args, &console),
         Command::Init(args) => init::run(args, &console),
         Command::Frame(args) => frame::run(args, &console),
+        Command::Report(args) => report::run(args, &console),
+        Command::Skeleton(args) => skeleton::run(args, &console),
         Command::Completions(args) => completions::run::<Cli>(args),
     };
     result.unwrap_or_else(|error| {

@@ -35,7 +35,8 @@ enum Format {
 pub fn run(args: Args, _console: &Console) -> Result<ExitCode, CliError> {
     let config = config::load(&args.config, &args.set)?;
     let folder = config::folder_of(&args.config);
-    let wrong = |error: &dyn std::error::Error| CliError::Input(format!("{}: {error}", args.config.display()));
+    let wrong =
+        |error: &dyn std::error::Error| CliError::Input(format!("{}: {error}", args.config.display()));
     let surface = surface::build(&config.surface, folder).map_err(|e| wrong(&e))?;
     let domain = Domain::resolve(&config.domain, &surface, folder).map_err(|e| wrong(&e))?;
     let base = skeleton::initial(&config.topology, &domain, folder).map_err(|e| wrong(&e))?;

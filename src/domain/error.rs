@@ -174,8 +174,8 @@ pub enum DomainError {
         /// Where the surface is.
         extent: String,
     },
-    /// A symmetry of the config that the boundary does not have.
-    #[error("domain.symmetries: the boundary does not have `{symmetry}`: {reason}")]
+    /// A symmetry of the config that boundary or surface do not have.
+    #[error("domain.symmetries: the domain does not have `{symmetry}`: {reason}")]
     NotSymmetric {
         /// The symmetry.
         symmetry: &'static str,

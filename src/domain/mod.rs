@@ -6,6 +6,7 @@ mod curve;
 mod error;
 pub mod params;
 mod read;
+mod symmetry;
 
 pub use boundary::BoundaryLoop;
 pub use error::DomainError;

@@ -1,6 +1,7 @@
 //! Strings and what they mean: tokens, marker, strip addition and deletion, decoding (GRAMMAR §2–§5).
 
 pub mod decode;
+pub mod random;
 pub mod rules;
 pub mod tokens;
 pub mod walker;

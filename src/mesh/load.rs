@@ -10,13 +10,16 @@ use super::validate::{self, Invalid};
 /// Corner numbers must fit a set in 128 bits with room for the factor 1000 of the canonical code.
 pub const MAX_CORNERS: usize = 112;
 
+/// So that means and areas of coordinates stay finite.
+const MAX_COORDINATE_M: f64 = 1e100;
+
 /// What is wrong with an initial mesh (GRAMMAR §1). Vertices, faces and corners are numbered as in the input, from 0.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 #[expect(missing_docs, reason = "the messages say it")]
 pub enum BaseMeshError {
     #[error("the mesh has no faces")]
     NoFaces,
-    #[error("vertex {vertex} has a coordinate that is not a finite number")]
+    #[error("vertex {vertex} has a coordinate that is not a finite number, or one beyond ±1e100 m")]
     NotFinite { vertex: u32 },
     #[error("{what} refers to vertex {vertex}, but there are only {count} vertices (numbered from 0)")]
     VertexOutOfRange { what: String, vertex: u32, count: usize },
@@ -113,7 +116,7 @@ fn check_plain(base: &BaseMesh) -> Result<(), BaseMeshError> {
     if base.faces.is_empty() {
         return Err(BaseMeshError::NoFaces);
     }
-    if let Some(vertex) = base.vertices.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
+    if let Some(vertex) = base.vertices.iter().position(|p| !p.iter().all(|x| x.abs() <= MAX_COORDINATE_M)) {
         return Err(BaseMeshError::NotFinite { vertex: vertex as u32 });
     }
     for (face, vertices) in (0u32..).zip(&base.faces) {

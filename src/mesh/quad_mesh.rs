@@ -294,6 +294,11 @@ impl QuadMesh {
         self.positions[v.index()]
     }
 
+    /// The positions of all vertices, m.
+    pub fn positions(&self) -> &[[f64; 3]] {
+        &self.positions
+    }
+
     /// The dart from `u` to `v`, if these are adjacent.
     pub fn find_dart(&self, u: VertexId, v: VertexId) -> Option<DartId> {
         self.darts().find(|&d| self.origin(d) == u && self.end(d) == v)

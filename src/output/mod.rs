@@ -1,6 +1,7 @@
 //! Results folder and interchange formats: one exporter a file, each returns bytes.
 
 pub mod atomic;
+pub mod coarse;
 pub mod compas;
 pub mod designs;
 pub mod explorer;

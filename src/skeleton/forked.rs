@@ -1,8 +1,8 @@
 //! From a medial axis with forks to a layout: two quads a branch between forks, one a leaf.
 
-use super::graph::{Branch, End, Fork, Graph, Slot, stretch};
+use super::graph::{Branch, End, Fork, Graph, Slot, plan, stretch};
 use super::layout::Layout;
-use super::triangulation::Site;
+use super::triangulation::{Site, distance};
 use crate::domain::Domain;
 use std::collections::BTreeMap;
 
@@ -73,7 +73,8 @@ fn corridor(
         [first.ring[i].site, first.ring[(i + 1) % n].site],
         [second.ring[(j + 1) % m].site, second.ring[j].site],
     ];
-    let pairs = stations(branch, ends, needed(graph, b, [f, g]));
+    let mut pairs = stations(branch, ends, needed(graph, b, [f, g]));
+    join_facing(domain, &mut pairs);
     let mut right: Vec<Site> = std::iter::once(ends[0][0]).chain(pairs.iter().map(|p| p[0])).collect();
     right.push(ends[1][0]);
     // The left side runs backwards.
@@ -145,6 +146,30 @@ fn stations(branch: &Branch, ends: [[Site; 2]; 2], needed: usize) -> Vec<[Site; 
     chosen.into_iter().map(|k| pairs[k]).collect()
 }
 
+/// Makes one oblique cross section of two neighbours, of which one ends in a corner on the right and the other in a corner on the
+/// left, where they are nearer to each other than half their width.
+fn join_facing(domain: &Domain, pairs: &mut Vec<[Site; 2]>) {
+    let width = |[r, l]: [Site; 2]| distance(plan(domain, r), plan(domain, l));
+    let gap = |a: Site, b: Site| distance(plan(domain, a), plan(domain, b));
+    let mut k = 0;
+    while k + 1 < pairs.len() {
+        let (first, second) = (pairs[k], pairs[k + 1]);
+        let corners = |p: [Site; 2]| p.map(|s| s.corner.is_some());
+        let near = 0.5 * width(first).min(width(second));
+        let close = gap(first[0], second[0]) < near && gap(first[1], second[1]) < near;
+        let joined = match (corners(first), corners(second)) {
+            ([true, false], [false, true]) if close => Some([first[0], second[1]]),
+            ([false, true], [true, false]) if close => Some([second[0], first[1]]),
+            _ => None,
+        };
+        if let Some(pair) = joined {
+            pairs[k] = pair;
+            pairs.remove(k + 1);
+        }
+        k += 1;
+    }
+}
+
 /// Puts the sites between the first and the last, in the order of the boundary, clear of each other: corners stay, others are
 /// spaced evenly where two are too close or in the wrong order.
 pub(super) fn spread(domain: &Domain, sites: &mut [Site]) {
@@ -162,11 +187,11 @@ pub(super) fn spread(domain: &Domain, sites: &mut [Site]) {
     }
     let fixed: Vec<usize> = (0..n).filter(|&i| i == 0 || i == n - 1 || sites[i].corner.is_some()).collect();
     for w in fixed.windows(2) {
-        for i in w[0] + 1..w[1] {
-            let share = (i - w[0]) as f64 / (w[1] - w[0]) as f64;
-            let way = ways[w[0]] + share * (ways[w[1]] - ways[w[0]]);
+        let (before, count) = (w[0], w[1] - w[0]);
+        for (k, site) in sites[before + 1..w[1]].iter_mut().enumerate() {
+            let way = ways[before] + (k + 1) as f64 / count as f64 * (ways[w[1]] - ways[before]);
             let s = if first.loop_number == 0 { first.s + way } else { first.s - way };
-            sites[i].s = s.rem_euclid(whole) % whole;
+            site.s = s.rem_euclid(whole) % whole;
         }
     }
 }

@@ -135,12 +135,12 @@ pub(super) fn ring(domain: &Domain, branch: &Branch) -> Option<Layout> {
 fn corner_sections(pairs: &[[Site; 2]]) -> Vec<usize> {
     let n = pairs.len();
     let mut chosen = Vec::new();
-    for side in 0..2 {
+    for sites in [0, 1].map(|side| pairs.iter().map(|p| p[side]).collect::<Vec<_>>()) {
         // Begin where a new site begins, so that no run is cut.
-        let Some(start) = (0..n).find(|&i| pairs[i][side] != pairs[(i + n - 1) % n][side]) else { continue };
+        let Some(start) = (0..n).find(|&i| sites[i] != sites[(i + n - 1) % n]) else { continue };
+        let at = |k: usize| sites[(start + k) % n];
         let mut i = 0;
         while i < n {
-            let at = |k: usize| pairs[(start + k) % n][side];
             let run = (i..n).take_while(|&k| at(k) == at(i)).count();
             if at(i).corner.is_some() {
                 chosen.push((start + i + run / 2) % n);

@@ -161,6 +161,19 @@ impl Graph {
         }
     }
 
+    /// Puts the tip of every smooth end in the middle of the arc that the last disc touches: where on an arc the triangles end is
+    /// chance.
+    pub(super) fn center_tips(&mut self, domain: &Domain) {
+        for branch in self.branches.iter_mut().flatten() {
+            for end in 0..2 {
+                let End::Leaf(tip) = branch.ends[end] else { continue };
+                if tip.corner.is_none() {
+                    branch.ends[end] = End::Leaf(centered(domain, tip, &branch.directed(end)));
+                }
+            }
+        }
+    }
+
     /// Contracts the first branch between two forks that are nearer than a share of their radius or share a boundary point.
     fn contract_where(&mut self, domain: &Domain, share: f64) -> bool {
         for b in 0..self.branches.len() {
@@ -301,6 +314,19 @@ impl Branch {
         } else {
             self.pairs.iter().rev().map(|&[right, left]| [left, right]).collect()
         }
+    }
+}
+
+/// The middle of the arc about a tip that lies on its disc; `pairs` go away from the tip.
+fn centered(domain: &Domain, tip: Site, pairs: &[[Site; 2]]) -> Site {
+    let Some(&[a, b]) = pairs.first() else { return tip };
+    let center = circumcenter(plan(domain, a), plan(domain, tip), plan(domain, b));
+    let radius = distance(center, plan(domain, tip));
+    let touches = |site: Site| (distance(center, plan(domain, site)) - radius).abs() < 0.01 * radius;
+    // Going away from the tip, the boundary runs from the left over the tip to the right.
+    match pairs.iter().take_while(|[right, left]| touches(*right) && touches(*left)).last() {
+        Some(&[right, left]) => along(domain, left, right, 0.5),
+        None => tip,
     }
 }
 

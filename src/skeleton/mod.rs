@@ -74,6 +74,7 @@ fn decompose(domain: &Domain) -> Result<Layout, SkeletonError> {
     }
     let mut graph = Graph::of(&Triangulation::of(domain)?);
     graph.simplify(domain);
+    graph.center_tips(domain);
     if !graph.fork_numbers().is_empty() {
         refine::forks(&mut graph, domain);
         return Ok(forked::layout(&graph, domain));

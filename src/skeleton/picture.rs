@@ -18,7 +18,8 @@ pub fn svg(base: &BaseMesh, domain: &Domain, title: &str) -> Result<String, Base
     let [low, high] = domain.bounds();
     let scale = SIZE / (high[0] - low[0]).max(high[1] - low[1]);
     let at = |p: &[f64; 3]| [MARGIN + scale * (p[0] - low[0]), MARGIN + scale * (high[1] - p[1])];
-    let (width, height) = (2.0 * MARGIN + scale * (high[0] - low[0]), 2.0 * MARGIN + scale * (high[1] - low[1]));
+    let (width, height) =
+        (2.0 * MARGIN + scale * (high[0] - low[0]), 2.0 * MARGIN + scale * (high[1] - low[1]));
     let title = title.replace('&', "&amp;").replace('<', "&lt;");
     let mut text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.1} {height:.1}\">\n<title>{title}</title>\n\
@@ -33,10 +34,11 @@ pub fn svg(base: &BaseMesh, domain: &Domain, title: &str) -> Result<String, Base
     }
     for boundary in &domain.loops {
         let points = boundary.sample(domain.size() / 300.0);
-        let outline: String = points.iter().map(|&s| at(&boundary.point(s))).fold(String::new(), |mut o, [x, y]| {
-            let _ = write!(o, "{}{x:.1} {y:.1}", if o.is_empty() { "M" } else { "L" });
-            o
-        });
+        let outline: String =
+            points.iter().map(|&s| at(&boundary.point(s))).fold(String::new(), |mut o, [x, y]| {
+                let _ = write!(o, "{}{x:.1} {y:.1}", if o.is_empty() { "M" } else { "L" });
+                o
+            });
         let _ = writeln!(text, "<path class=\"boundary\" d=\"{outline}Z\"/>");
     }
     let (from, to) = (mesh.mesh.origin(mesh.marker).index(), mesh.mesh.end(mesh.marker).index());
@@ -76,7 +78,10 @@ fn vertices(text: &mut String, base: &BaseMesh, at: impl Fn(&[f64; 3]) -> [f64; 
         let _ = writeln!(text, "<text class=\"number\" x=\"{:.1}\" y=\"{:.1}\">{v}</text>", x + 6.0, y - 6.0);
         let regular = if boundary.contains(&v) { 3 } else { 4 };
         if corners.contains(&v) {
-            let _ = writeln!(text, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"6\" fill=\"#fff\" stroke=\"#111\" stroke-width=\"2\"/>");
+            let _ = writeln!(
+                text,
+                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"6\" fill=\"#fff\" stroke=\"#111\" stroke-width=\"2\"/>"
+            );
         } else if around.len() != regular {
             let fill = if around.len() < regular { "#d55e00" } else { "#0072b2" };
             let _ = writeln!(text, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"10\" fill=\"{fill}\"/>");

@@ -143,7 +143,7 @@ await check("mouse, touch-like drags and keys turn the picture", async () => {
 
 await check("colours change the picture and the legend", async () => {
   let last = await picture(page);
-  for (const [key, words] of [["skewness", "Panel skewness"], ["utilisation", "Member utilisation"], ["none", "singular"], ["curvature", "Panel curvature"]]) {
+  for (const [key, words] of [["skewness", "Panel skewness"], ["utilisation", "Member utilisation"], ["none", "Singular"], ["curvature", "Panel curvature"]]) {
     await page.check(`input[name=field][value=${key}]`);
     const now = await picture(page);
     assert.notEqual(now, last, key);

@@ -2,7 +2,7 @@
 //! Its numbers mean nothing; its shapes, counts and oddities (missing values, awkward characters) are those of a real one.
 
 use quadrille::output::report::{
-    Design, Generation, Mesh, Metric, ReportData, Run, Sample, Singularities, Spread,
+    Design, Generation, Mark, Mesh, Metric, ReportData, Run, Sample, Singular, Singularities, Spread,
 };
 use quadrille::random::{Rng, stream, unit};
 use std::collections::{BTreeMap, BTreeSet};
@@ -132,11 +132,11 @@ fn design(i: usize, panels: usize, rng: &mut Rng) -> Design {
         feasible: true,
         reason: None,
         values,
-        singularities: Singularities {
+        singularities: Some(Singularities {
             inner,
             boundary: BTreeMap::from([(2, 4)]),
             poles: u32::from(kind == 2),
-        },
+        }),
         mesh: Some(mesh),
     }
 }
@@ -237,7 +237,14 @@ impl Builder {
             .map(|[a, b]| [a.min(b), a.max(b)])
             .collect();
         mesh.edges = edges.into_iter().collect();
-        mesh.singular = singular.iter().map(|&p| self.vertex[&key(p)]).collect();
+        mesh.singular = singular
+            .iter()
+            .map(|&p| self.vertex[&key(p)])
+            .map(|vertex| Singular {
+                vertex,
+                mark: [Mark::Pole, Mark::Fewer][usize::from(singular.len() > 1)],
+            })
+            .collect();
         let height = |v: u32| mesh.positions[v as usize][2];
         let far = |v: u32| mesh.positions[v as usize][0].hypot(mesh.positions[v as usize][1]) / RADIUS_M;
         let quads = |value: &dyn Fn(&[u32]) -> f64| -> Vec<Option<f64>> {

@@ -73,8 +73,8 @@ pub struct Design {
     pub reason: Option<String>,
     /// One value per entry of [`ReportData::metrics`].
     pub values: Vec<Option<f64>>,
-    /// Irregular vertices of its topology, by which designs are grouped into families.
-    pub singularities: Singularities,
+    /// Irregular vertices of its topology, by which designs are grouped into families; `None` if not known.
+    pub singularities: Option<Singularities>,
     /// Its dense mesh with results; without one the design has no picture.
     pub mesh: Option<Mesh>,
 }
@@ -100,13 +100,34 @@ pub struct Mesh {
     /// Every edge once, in any order: the members.
     pub edges: Vec<[u32; 2]>,
     /// Vertices that are singular in the coarse mesh and worth a mark.
-    pub singular: Vec<u32>,
+    pub singular: Vec<Singular>,
     /// Curvature of each panel (GEOMETRY §3); `None` for triangles. Empty: not known.
     pub curvature: Vec<Option<f64>>,
     /// Skewness of each panel (GEOMETRY §3); `None` for triangles. Empty: not known.
     pub skewness: Vec<Option<f64>>,
     /// Utilisation of each member, in the order of `edges`. Empty: not known.
     pub utilisation: Vec<Option<f64>>,
+}
+
+/// A marked vertex.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+pub struct Singular {
+    /// The vertex.
+    pub vertex: u32,
+    /// What is singular about it.
+    pub mark: Mark,
+}
+
+/// What is singular about a vertex; drawn as in `designs/ID.svg`.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Mark {
+    /// Fewer members than regular.
+    Fewer,
+    /// More members than regular.
+    More,
+    /// A pole, where a strip ends in a fan of triangles.
+    Pole,
 }
 
 /// One row of `generations.csv`.

@@ -22,7 +22,8 @@ pub(super) struct Packed {
     positions: String,
     /// Per panel: number of corners, then each corner less the same corner of the panel before, zigzag, LEB128.
     corners: String,
-    singular: Vec<u32>,
+    /// Vertices to mark: vertex, and kind (0 fewer members than regular, 1 more, 2 pole).
+    singular: Vec<[u32; 2]>,
     curvature: Option<Field>,
     skewness: Option<Field>,
     utilisation: Option<Field>,
@@ -50,8 +51,8 @@ pub(super) fn pack(id: &str, mesh: &Mesh) -> Result<Packed, ReportError> {
             return Err(broken(format!("panel {i} is {panel:?}, of {count} vertices")));
         }
     }
-    if let Some(v) = mesh.singular.iter().find(|v| !in_range(v)) {
-        return Err(broken(format!("singular vertex {v} of {count}")));
+    if let Some(singular) = mesh.singular.iter().find(|singular| !in_range(&singular.vertex)) {
+        return Err(broken(format!("singular vertex {} of {count}", singular.vertex)));
     }
     let per_panel = |name: &str, values: &[Option<f64>]| match values.len() {
         0 => Ok(None),
@@ -66,7 +67,7 @@ pub(super) fn pack(id: &str, mesh: &Mesh) -> Result<Packed, ReportError> {
         step,
         positions,
         corners: pack_corners(&mesh.panels),
-        singular: mesh.singular.clone(),
+        singular: mesh.singular.iter().map(|s| [s.vertex, s.mark as u32]).collect(),
         curvature: per_panel("curvature", &mesh.curvature)?,
         skewness: per_panel("skewness", &mesh.skewness)?,
         utilisation: member_field(mesh).map_err(broken)?,

@@ -6,10 +6,17 @@
 mod choose;
 mod data;
 mod encode;
+mod measure;
 mod page;
+mod read;
+mod rows;
 
 pub use choose::worth_a_mesh;
-pub use data::{Design, Generation, Mesh, Metric, ReportData, Run, Sample, Singularities, Spread};
+pub use data::{
+    Design, Generation, Mark, Mesh, Metric, ReportData, Run, Sample, Singular, Singularities, Spread,
+};
+pub use read::read;
+pub use rows::ReadError;
 
 /// Why a report cannot be made. All of these are mistakes of the caller: a run's own data satisfies them.
 #[derive(Debug, thiserror::Error)]

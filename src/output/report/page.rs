@@ -42,7 +42,7 @@ struct Row<'a> {
     feasible: bool,
     reason: &'a Option<String>,
     values: Vec<Option<f64>>,
-    singularities: &'a super::Singularities,
+    singularities: &'a Option<super::Singularities>,
 }
 
 #[derive(Serialize)]

@@ -1,0 +1,54 @@
+//! `quadrille decode`: what a string means.
+
+use super::CliError;
+use super::topology::{TopologyArgs, parse_string};
+use clap::ValueEnum;
+use quadrille::grammar;
+use quadrille::output::coarse::{self, Reading};
+use std::process::ExitCode;
+
+/// Decode a string to its coarse mesh: trace, strips, singularities, mesh.
+///
+/// Every string has a meaning: a rule that cannot be applied is skipped, and the trace says why. What the JSON says
+/// of the mesh loads again with --base.
+#[derive(clap::Args)]
+pub struct Args {
+    #[command(flatten)]
+    topology: TopologyArgs,
+    /// The string: tokens T, P, D, A, A*, Ao; may be empty.
+    #[arg(long, value_name = "STRING", allow_hyphen_values = true)]
+    string: String,
+    /// What is printed.
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+}
+
+#[derive(Clone, Copy, Default, ValueEnum)]
+enum Format {
+    /// For people: the trace, singular vertices, strips.
+    #[default]
+    Text,
+    /// For programs: everything.
+    Json,
+    /// The coarse mesh.
+    Obj,
+    /// A picture: strips coloured, singular vertices with their valence, the marker as an arrow.
+    Svg,
+}
+
+/// Prints the decoded string.
+pub fn run(args: &Args) -> Result<ExitCode, CliError> {
+    let string = parse_string("--string", &args.string)?;
+    let (initial, rules) = args.topology.load()?;
+    let decoded = grammar::decode(&initial, &string, rules);
+    let reading = Reading { string: &string, decoded: &decoded };
+    match args.format {
+        Format::Text => print!("{}", coarse::text(reading)),
+        Format::Json => {
+            println!("{}", coarse::json(reading).map_err(|error| CliError::Failed(error.to_string()))?);
+        }
+        Format::Obj => print!("{}", coarse::obj(reading)),
+        Format::Svg => print!("{}", coarse::svg(reading)),
+    }
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,97 @@
+//! `quadrille distance`: how far apart two strings are.
+
+use super::CliError;
+use super::topology::{TopologyArgs, parse_string};
+use clap::ValueEnum;
+use quadrille::grammar::{self, Tokens};
+use quadrille::mesh::{self, Distance, Equivalence};
+use std::process::ExitCode;
+
+/// Topological distance of the phenotypes, Levenshtein and Hamming distance of the strings.
+///
+/// The topological distance is the smallest number of strips to delete, from either mesh, until both are the same.
+/// Meshes are compared with their place on the domain (boundary loops, corners) and without parallel strips.
+#[derive(clap::Args)]
+pub struct Args {
+    #[command(flatten)]
+    topology: TopologyArgs,
+    /// One string.
+    #[arg(long, value_name = "STRING", allow_hyphen_values = true)]
+    a: String,
+    /// The other string.
+    #[arg(long, value_name = "STRING", allow_hyphen_values = true)]
+    b: String,
+    /// Look no further than this: the answer is then "more than N". The work grows fast with it.
+    #[arg(long, value_name = "N", default_value_t = 3)]
+    max: usize,
+    /// Ignore boundary loops and corners: designs that sit differently on the domain are the same.
+    #[arg(long)]
+    not_placed: bool,
+    /// Count parallel strips too.
+    #[arg(long)]
+    no_reduce: bool,
+    /// A mirrored mesh is the same.
+    #[arg(long)]
+    mirror: bool,
+    /// What is printed.
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+}
+
+#[derive(Clone, Copy, Default, ValueEnum)]
+enum Format {
+    /// For people.
+    #[default]
+    Text,
+    /// For programs.
+    Json,
+}
+
+/// The answer, with the keys that other programs rely on.
+#[derive(serde::Serialize)]
+struct Answer {
+    topological: Option<usize>,
+    more_than: Option<usize>,
+    comparable: bool,
+    levenshtein: usize,
+    hamming: Option<usize>,
+}
+
+/// Prints the distances.
+pub fn run(args: &Args) -> Result<ExitCode, CliError> {
+    let a = parse_string("--a", &args.a)?;
+    let b = parse_string("--b", &args.b)?;
+    let (initial, rules) = args.topology.load()?;
+    let equivalence = Equivalence { placed: !args.not_placed, reduce: !args.no_reduce, mirror: args.mirror };
+    let mesh = |tokens: &Tokens| grammar::decode(&initial, tokens, rules).mesh;
+    let topological = mesh::distance(&mesh(&a), &mesh(&b), equivalence, args.max);
+    let answer = Answer {
+        topological: if let Distance::Exactly(d) = topological { Some(d) } else { None },
+        more_than: if let Distance::MoreThan(max) = topological { Some(max) } else { None },
+        comparable: topological != Distance::Incomparable,
+        levenshtein: a.levenshtein(&b),
+        hamming: a.hamming(&b),
+    };
+    match args.format {
+        Format::Text => print_text(&answer),
+        Format::Json => println!(
+            "{}",
+            serde_json::to_string(&answer).map_err(|error| CliError::Failed(error.to_string()))?
+        ),
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn print_text(answer: &Answer) {
+    match (answer.topological, answer.more_than) {
+        (Some(0), _) => println!("topological  0 (the same design)"),
+        (Some(d), _) => println!("topological  {d} (strips to delete until both are the same)"),
+        (None, Some(max)) => println!("topological  more than {max}"),
+        (None, None) => println!("topological  not comparable (other topology of the surface)"),
+    }
+    println!("Levenshtein  {}", answer.levenshtein);
+    match answer.hamming {
+        Some(d) => println!("Hamming      {d}"),
+        None => println!("Hamming      none (the strings differ in length)"),
+    }
+}
