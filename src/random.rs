@@ -4,6 +4,7 @@
 
 use rand::{Rng as _, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use std::hash::{BuildHasher, Hasher, RandomState};
 
 /// The generator used everywhere: named, portable, seekable.
 pub type Rng = ChaCha8Rng;
@@ -14,6 +15,14 @@ pub fn stream(seed: u64, generation: u32, individual: u32) -> Rng {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     rng.set_stream((u64::from(generation) << 32) | u64::from(individual));
     rng
+}
+
+/// A seed that nobody chose, below 2⁵³ so that every reader of JSON keeps its digits.
+///
+/// For a run without a seed; it is told and recorded, so the run can be had again.
+pub fn fresh_seed() -> u64 {
+    // The standard library seeds its hash maps from the operating system's generator.
+    RandomState::new().build_hasher().finish() >> 11
 }
 
 /// A uniform integer in `0..n`, without modulo bias (Lemire 2019, multiply-shift with rejection).

@@ -90,6 +90,8 @@ pub struct Failure {
 /// Which designs are worth a structural analysis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effort {
+    /// None: geometry alone.
+    Pattern,
     /// Only those that keep the pattern's limits, as in a search.
     Promising,
     /// All that have a pattern, for a designer who wants every number.
@@ -145,7 +147,11 @@ impl Study {
         let pattern = geometry::develop(&topology, &self.domain, self.surface.as_ref(), &self.pattern)?;
         let fabrication = metrics::measure(&pattern, &topology);
         let limits = limits::excesses(&pattern, &self.pattern.limits, 0.0);
-        let worthwhile = effort == Effort::Everything || limits.iter().all(|limit| limit.excess <= 0.0);
+        let worthwhile = match effort {
+            Effort::Pattern => false,
+            Effort::Promising => limits.iter().all(|limit| limit.excess <= 0.0),
+            Effort::Everything => true,
+        };
         let response = match &self.structure {
             Some(params) if worthwhile => Some(gridshell::analyse(&pattern, params)?),
             _ => None,

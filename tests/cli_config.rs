@@ -66,9 +66,9 @@ fn population_0() {
 #[test]
 fn negative_length() {
     refused(
-        "width_m = 0.10",
-        "width_m = -0.10",
-        &["structure.section.width_m: found -0.1; allowed: a number > 0"],
+        "width_m = 0.12",
+        "width_m = -0.12",
+        &["structure.section.width_m: found -0.12; allowed: a number > 0"],
     );
 }
 
@@ -91,7 +91,7 @@ fn unknown_combination_and_load_case() {
         "combination = \"slz\"",
         &["no combination \"slz\", did you mean `sls`?"],
     );
-    let old = "height = { fixed_m = 0.15 }";
+    let old = "height = { fixed_m = 0.20 }";
     let new = format!("{old}\ncombinations = {{ sls = {{ wind = 1.0 }}, uls = {{ snow = 1.5 }} }}");
     let (stderr, code) = check_with(old, &new);
     assert_eq!(code, Some(2));

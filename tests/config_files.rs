@@ -54,7 +54,7 @@ fn every_shipped_config_loads_and_survives_being_written_back() {
 #[test]
 fn shortest_member_defaults_to_twice_the_section_width() {
     assert_eq!(load("great_court.toml").pattern.limits.min_edge_m, Some(0.5));
-    assert_eq!(load("dome.toml").pattern.limits.min_edge_m, Some(0.2));
+    assert_eq!(load("dome.toml").pattern.limits.min_edge_m, Some(0.24));
 }
 
 #[test]

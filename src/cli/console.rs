@@ -59,6 +59,11 @@ impl Console {
         }
     }
 
+    /// A message, even with `--quiet`: what the user must know to go on.
+    pub fn always(&self, message: &str) {
+        line(message);
+    }
+
     /// A message for `-v`.
     pub fn detail(&self, message: &str) {
         if self.verbosity > 0 {

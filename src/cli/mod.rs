@@ -5,6 +5,7 @@
 
 mod check;
 mod completions;
+mod config_args;
 mod console;
 mod decode;
 mod distance;
@@ -12,7 +13,9 @@ mod error;
 mod exit;
 mod frame;
 mod init;
+mod progress;
 mod report;
+mod run;
 mod skeleton;
 mod topology;
 
@@ -40,6 +43,7 @@ struct Cli {
 enum Command {
     Decode(decode::Args),
     Distance(distance::Args),
+    Run(run::Args),
     Check(check::Args),
     Init(init::Args),
     Completions(completions::Args),
@@ -55,6 +59,7 @@ pub fn main() -> ExitCode {
     let result = match command {
         Command::Decode(args) => decode::run(&args),
         Command::Distance(args) => distance::run(&args),
+        Command::Run(args) => run::run(args, &console),
         Command::Check(args) => check::run(args, &console),
         Command::Init(args) => init::run(args, &console),
         Command::Frame(args) => frame::run(args, &console),

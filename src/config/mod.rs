@@ -17,7 +17,7 @@ pub use describe::{describe, warnings};
 pub use error::{ConfigError, Located, Place, Problem};
 pub use path::{KeyPath, Segment};
 pub use reference::reference;
-pub use resolved::{differences, hash, to_toml};
+pub use resolved::{differences, hash, hex, input_files, to_toml};
 pub use schema::config_schema;
 
 use crate::domain::params::DomainParams;

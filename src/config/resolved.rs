@@ -1,9 +1,13 @@
 //! A config with its defaults: written back, hashed, compared.
 
 use super::{Config, KeyPath, names};
+use crate::domain::params::LoopParams;
+use crate::geometry::params::InitialMesh;
 use crate::structure::params::{HeightParams, SectionParams, StructureParams};
+use crate::surface::params::SurfaceParams;
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
+use std::path::PathBuf;
 use toml::Value;
 
 /// Fills in defaults that depend on other keys.
@@ -42,11 +46,32 @@ pub fn to_toml(config: &Config) -> String {
 
 /// SHA-256 of [`to_toml`], in hex.
 pub fn hash(config: &Config) -> String {
-    let digest = Sha256::digest(to_toml(config).as_bytes());
-    digest.iter().fold(String::new(), |mut hex, byte| {
+    hex(&Sha256::digest(to_toml(config).as_bytes()))
+}
+
+/// Bytes as hexadecimal digits.
+pub fn hex(bytes: &[u8]) -> String {
+    bytes.iter().fold(String::new(), |mut hex, byte| {
         let _ = write!(hex, "{byte:02x}");
         hex
     })
+}
+
+/// The files that a config names, relative to its folder.
+pub fn input_files(config: &Config) -> Vec<PathBuf> {
+    let outlines = config.domain.loops.iter().filter_map(|boundary_loop| match boundary_loop {
+        LoopParams::Obj { file, .. } => Some(file),
+        _ => None,
+    });
+    let surface = match &config.surface {
+        SurfaceParams::Mesh { file, .. } => Some(file),
+        _ => None,
+    };
+    let initial = match &config.topology.initial {
+        InitialMesh::File { file, .. } => Some(file),
+        _ => None,
+    };
+    outlines.chain(surface).chain(initial).cloned().collect()
 }
 
 /// The keys in which two configs differ, in the order of the file.

@@ -1,13 +1,13 @@
 //! What several keys, or a key and the file system, say together.
 
 use super::error::Problem;
-use super::names;
 use super::path::KeyPath;
 use super::schema::suggestion;
 use super::{Config, VERSION};
 use crate::domain::params::{Corners, LoopParams};
 use crate::geometry::params::{Density, InitialMesh};
 use crate::grammar::Tokens;
+use crate::objectives::{self, METRICS};
 use crate::structure::params::{
     ElementsPerMember, HeightParams, Quantity, RequirementParams, SectionParams, StructureParams,
     SupportParams,
@@ -255,7 +255,7 @@ impl Rules<'_> {
     fn objectives(&mut self, config: &Config) {
         let objectives = &config.objectives;
         let key = KeyPath::of("objectives.minimise");
-        let known = names::objectives();
+        let known: Vec<&str> = METRICS.iter().map(|metric| metric.name).collect();
         for (i, name) in objectives.minimise.iter().enumerate() {
             self.known(&key.index(i), "objective", name, &known);
             if objectives.minimise[..i].contains(name) {
@@ -264,7 +264,7 @@ impl Rules<'_> {
                     format!("found \"{name}\" a second time; allowed: each objective once"),
                 );
             }
-            if config.structure.is_none() && names::needs_structure(name) {
+            if config.structure.is_none() && objectives::find(name).is_some_and(|metric| metric.structural) {
                 let message =
                     format!("found \"{name}\", which needs a frame analysis; allowed with [structure] only");
                 self.refuse(key.index(i), message);

@@ -2,6 +2,7 @@
 
 use super::table::{Cell, Table};
 use crate::mesh::canonical::Code;
+use crate::objectives::{self, METRICS};
 use crate::search::EvaluatedRow;
 
 /// The first columns of both files.
@@ -24,6 +25,19 @@ pub fn id(code: Code) -> String {
 }
 
 impl Columns {
+    /// The columns of a config that minimises these.
+    pub fn of(objectives: &[String]) -> Self {
+        Self {
+            objectives: objectives
+                .iter()
+                .map(|name| {
+                    objectives::find(name).map_or_else(|| name.clone(), |metric| metric.column.to_owned())
+                })
+                .collect(),
+            metrics: METRICS.iter().map(|metric| metric.column.to_owned()).collect(),
+        }
+    }
+
     /// The metrics that are no objectives: place and name.
     fn others(&self) -> impl Iterator<Item = (usize, &String)> {
         self.metrics.iter().enumerate().filter(|(_, name)| !self.objectives.contains(name))

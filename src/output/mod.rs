@@ -1,5 +1,6 @@
 //! Results folder and interchange formats: one exporter a file, each returns bytes.
 
+pub mod analysed;
 pub mod atomic;
 pub mod coarse;
 pub mod compas;
@@ -7,11 +8,13 @@ pub mod designs;
 pub mod explorer;
 pub mod folder;
 pub mod generations;
+pub mod load;
 pub mod manifest;
 pub mod number;
 pub mod obj;
 pub mod polygons;
 pub mod report;
+pub mod results;
 #[cfg(test)]
 mod sample;
 pub mod svg;

@@ -1,0 +1,304 @@
+//! Writes a whole results folder (RUN "Results folder").
+
+use super::analysed::{Analysed, PanelShapes};
+use super::compas::compas;
+use super::designs::{Columns, history, id, pareto};
+use super::explorer::{Column, design_explorer};
+use super::folder::{self, Folder, FolderError, excel_name};
+use super::generations::{generations, operators};
+use super::manifest::{self, Counts, Host, Manifest, Status, timestamp};
+use super::obj::obj;
+use super::polygons::Polygons;
+use super::svg::{Shade, svg};
+use super::table::Table;
+use crate::config::{self, Config};
+use crate::objectives::METRICS;
+use crate::search::{Ended, EvaluatedRow, Outcome};
+use crate::structure::gridshell::{self, Detailed};
+use crate::study::{Design, Effort, Study};
+use rayon::prelude::*;
+use serde_json::Value as Json;
+use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::time::SystemTime;
+
+/// Whether tables are written a second time for spreadsheets with decimal commas.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Dialect {
+    /// CSV alone.
+    Canonical,
+    /// And a copy with byte order mark, `;` and decimal commas.
+    ExcelEu,
+}
+
+/// When and with what this part of the run was done.
+#[derive(Clone, Copy, Debug)]
+pub struct Sitting {
+    /// Its start.
+    pub started: SystemTime,
+    /// Seconds of searching.
+    pub seconds: f64,
+    /// Threads that evaluated.
+    pub threads: usize,
+}
+
+/// Why results could not be written.
+#[derive(Debug, thiserror::Error)]
+pub enum ResultsError {
+    /// The system refused.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
+    /// A file named in the config cannot be read.
+    #[error("{file}: {source}")]
+    Input {
+        /// The file.
+        file: String,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// The system does not give the threads.
+    #[error(transparent)]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+    /// A design of the front can no longer be made: the program contradicts itself.
+    #[error("design {id}: {reason}")]
+    Design {
+        /// Its id.
+        id: String,
+        /// Why not.
+        reason: String,
+    },
+}
+
+/// A finished search and what it was made from.
+#[derive(Clone, Copy)]
+pub struct Run<'a> {
+    /// What the search was served by.
+    pub study: &'a Study,
+    /// The config as resolved, seed included.
+    pub config: &'a Config,
+    /// The folder that paths in it are relative to.
+    pub config_folder: &'a Path,
+    /// What was found.
+    pub outcome: &'a Outcome,
+}
+
+/// What a resumed run must have in common with the one it goes on with: the config and the files it names.
+///
+/// # Errors
+/// If one of these files cannot be read.
+pub fn record(config: &Config, config_folder: &Path) -> Result<Json, ResultsError> {
+    let mut record = serde_json::to_value(config).unwrap_or_default();
+    record["input_files"] = serde_json::to_value(input_hashes(config, config_folder)?).unwrap_or_default();
+    Ok(record)
+}
+
+fn input_hashes(config: &Config, config_folder: &Path) -> Result<BTreeMap<String, String>, ResultsError> {
+    let hash = |file: &Path| {
+        let name = file.display().to_string();
+        match std::fs::read(config_folder.join(file)) {
+            Ok(bytes) => Ok((name, config::hex(&Sha256::digest(bytes)))),
+            Err(source) => Err(ResultsError::Input { file: name, source }),
+        }
+    };
+    config::input_files(config).iter().map(|file| hash(file)).collect()
+}
+
+impl Run<'_> {
+    /// Writes tables and manifest of an interrupted run, so that what is known so far can be looked at.
+    ///
+    /// # Errors
+    /// [`ResultsError`].
+    pub fn write_interrupted(&self, folder: &Folder, sitting: &Sitting) -> Result<(), ResultsError> {
+        self.write_tables(folder, Dialect::Canonical)?;
+        self.write_manifest(folder, sitting, Status::Interrupted)
+    }
+
+    /// Writes everything but the report; the manifest last, since it says that the run is finished.
+    ///
+    /// # Errors
+    /// [`ResultsError`].
+    pub fn write(&self, folder: &Folder, sitting: &Sitting, dialect: Dialect) -> Result<(), ResultsError> {
+        self.write_tables(folder, dialect)?;
+        self.write_designs(folder, sitting.threads)?;
+        self.write_manifest(folder, sitting, Status::Finished)
+    }
+
+    fn front(&self) -> Vec<&EvaluatedRow> {
+        self.outcome.front.iter().map(|&row| &self.outcome.evaluated[row]).collect()
+    }
+
+    fn write_tables(&self, folder: &Folder, dialect: Dialect) -> Result<(), ResultsError> {
+        let columns = Columns::of(&self.config.objectives.minimise);
+        let tables: [(&str, Table); 4] = [
+            (folder::PARETO, pareto(&self.front(), &columns)),
+            (folder::HISTORY, history(&self.outcome.evaluated, &columns)),
+            (folder::GENERATIONS, generations(&self.outcome.generations, &columns.objectives)),
+            (folder::OPERATORS, operators(&self.outcome.generations)),
+        ];
+        for (name, table) in &tables {
+            folder.write(name, &table.to_csv())?;
+            if dialect == Dialect::ExcelEu {
+                folder.write(excel_name(name), &table.to_excel_eu())?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Every design of the front in every format, and the copies for Design Explorer; for comparison also the initial
+    /// mesh, where it can be built.
+    fn write_designs(&self, folder: &Folder, threads: usize) -> Result<(), ResultsError> {
+        let front = self.front();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+        let baseline = self.outcome.evaluated.iter().find(|row| row.tokens.is_empty());
+        let files: Vec<DesignFiles> =
+            pool.install(|| front.par_iter().map(|row| self.design_files(row)).collect::<Result<_, _>>())?;
+        folder.clear_designs()?;
+        let initial = baseline.and_then(|row| self.design_files(row).ok());
+        for (name, bytes) in files.iter().chain(&initial).flatten() {
+            folder.write(Path::new(folder::DESIGNS).join(name), bytes)?;
+            if name.ends_with(".svg") {
+                folder.write(Path::new(folder::DESIGN_EXPLORER).join(name), bytes)?;
+            }
+        }
+        let table = design_explorer(&front, &explorer_columns(false), &explorer_columns(true));
+        Ok(folder.write(Path::new(folder::DESIGN_EXPLORER).join("data.csv"), &table.to_csv())?)
+    }
+
+    fn design_files(&self, row: &EvaluatedRow) -> Result<DesignFiles, ResultsError> {
+        let developed = Developed::of(self.study, self.config, &row.tokens)
+            .map_err(|reason| ResultsError::Design { id: id(row.code), reason })?;
+        Ok(developed.files(&id(row.code)))
+    }
+
+    fn write_manifest(&self, folder: &Folder, sitting: &Sitting, status: Status) -> Result<(), ResultsError> {
+        let started = timestamp(sitting.started);
+        let first = Manifest::read(folder.path()).map_or_else(|| started.clone(), |earlier| earlier.started);
+        let Outcome { generations, breeding, .. } = self.outcome;
+        let last = generations.last();
+        let config = config::to_toml(self.config);
+        let manifest = Manifest {
+            manifest_version: manifest::VERSION,
+            program: env!("CARGO_PKG_NAME").into(),
+            program_version: env!("CARGO_PKG_VERSION").into(),
+            name: self.config.run.name.clone().unwrap_or_default(),
+            objectives: Columns::of(&self.config.objectives.minimise).objectives,
+            seed: self.config.run.seed.unwrap_or_default(),
+            threads: sitting.threads,
+            status,
+            ended_by: words(self.outcome.ended),
+            started: first,
+            ended: timestamp(SystemTime::now()),
+            counts: Counts {
+                generations: last.map_or(0, |row| row.generation),
+                evaluations: self.outcome.evaluated.len() as u64,
+                structural_evaluations: last.map_or(0, |row| row.structural),
+                feasible: last.map_or(0, |row| row.feasible),
+                front_size: self.outcome.front.len() as u64,
+                bred: breeding.bred,
+                duplicates_refused: breeding.duplicates,
+                neighbours_refused: breeding.neighbours,
+            },
+            seconds: sitting.seconds,
+            host: Host::here(),
+            config_folder: absolute(self.config_folder),
+            config_sha256: config::hash(self.config),
+            input_files: input_hashes(self.config, self.config_folder)?,
+            config,
+        };
+        Ok(folder.write(folder::MANIFEST, &manifest.to_json())?)
+    }
+}
+
+/// Names of files and what is in them.
+pub type DesignFiles = Vec<(String, Vec<u8>)>;
+
+/// A design made again from its string, with all structural results.
+pub struct Developed {
+    /// Its mesh, pattern and measures.
+    pub design: Design,
+    /// Its analysis; none where no structure is configured.
+    pub results: Option<Detailed>,
+    first_order: bool,
+}
+
+impl Developed {
+    /// Makes a design.
+    ///
+    /// # Errors
+    /// In words, if a stage refuses it.
+    pub fn of(study: &Study, config: &Config, tokens: &crate::grammar::Tokens) -> Result<Self, String> {
+        let design =
+            study.develop(study.topology(tokens), Effort::Pattern).map_err(|failure| failure.reason)?;
+        let analyse = |structure| gridshell::analyse_detailed(&design.pattern, structure);
+        let results =
+            config.structure.as_ref().map(analyse).transpose().map_err(|error| error.to_string())?;
+        let first_order = config.structure.as_ref().is_some_and(|structure| structure.order == 1);
+        Ok(Self { design, results, first_order })
+    }
+
+    /// Its pattern with the analysis, for the exporters.
+    pub fn analysed(&self) -> Analysed<'_> {
+        Analysed {
+            pattern: &self.design.pattern,
+            results: self.results.as_ref(),
+            first_order: self.first_order,
+        }
+    }
+
+    /// Its plan, panels shaded by curvature.
+    pub fn plan(&self, id: &str) -> Vec<u8> {
+        let curvature = PanelShapes::of(&self.design.pattern).curvature;
+        // A fixed scale, so that designs can be compared by eye.
+        let shade = Shade { label: "panel curvature", values: &curvature, darkest: 0.05 };
+        svg(&self.design.pattern, &format!("design {id}"), Some(&shade))
+    }
+
+    /// The files of `designs/`.
+    pub fn files(&self, id: &str) -> DesignFiles {
+        let mesh = Polygons::from(&self.design.pattern);
+        let analysed = self.analysed();
+        let named = |ending: &str, bytes: Vec<u8>| (format!("{id}{ending}"), bytes);
+        vec![
+            named(".obj", obj(&mesh, id)),
+            named(".json", compas(&mesh, id)),
+            named(".svg", self.plan(id)),
+            named(".vtu", analysed.panels_vtu()),
+            named("_members.vtu", analysed.members_vtu()),
+            named("_nodes.csv", analysed.nodes_table().to_csv()),
+            named("_members.csv", analysed.members_table().to_csv()),
+        ]
+    }
+}
+
+/// What tells topologies apart is an input of Design Explorer, everything else an output.
+fn explorer_columns(outputs: bool) -> Vec<Column> {
+    const INPUTS: [&str; 3] = ["strips", "singularities", "poles"];
+    let wanted = METRICS.iter().enumerate().filter(|(_, metric)| INPUTS.contains(&metric.name) != outputs);
+    wanted
+        .map(|(place, metric)| Column {
+            metric: place,
+            name: if metric.unit.is_empty() {
+                metric.name.into()
+            } else {
+                format!("{}[{}]", metric.name, metric.unit)
+            },
+        })
+        .collect()
+}
+
+fn absolute(folder: &Path) -> String {
+    std::path::absolute(folder).unwrap_or_else(|_| folder.to_path_buf()).display().to_string()
+}
+
+/// Why a run ended, in words.
+fn words(ended: Ended) -> String {
+    match ended {
+        Ended::Generations => "all generations are done".into(),
+        Ended::Evaluations => "the structural evaluations are used up".into(),
+        Ended::Minutes => "the time is used up".into(),
+        Ended::Stall => "the hypervolume no longer grew".into(),
+        Ended::Exhausted => "nothing new could be bred".into(),
+        Ended::Interrupted(signal) => format!("signal {signal}"),
+    }
+}
