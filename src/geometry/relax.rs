@@ -58,13 +58,7 @@ impl Around {
 impl Mesh {
     /// Prepares a dense mesh of `vertex_count` vertices.
     pub fn new(vertex_count: usize, panels: &[Panel], edges: &[[u32; 2]], loops: &[BoundaryLoop]) -> Self {
-        let quads: Vec<[u32; 4]> = panels
-            .iter()
-            .map(|panel| match *panel.corners() {
-                [a, b, c, d] => [a, b, c, d],
-                _ => [panel.corners()[0], panel.corners()[1], panel.corners()[2], panel.corners()[2]],
-            })
-            .collect();
+        let quads: Vec<[u32; 4]> = panels.iter().map(Panel::as_quad).collect();
         let mut on_boundary = vec![false; vertex_count];
         for &v in loops.iter().flat_map(|l| &l.vertices) {
             on_boundary[v as usize] = true;
