@@ -13,7 +13,7 @@ function startFamilies() {
       return `<tr class="${active ? "picked" : ""}"><th scope="row"><button type="button" data-family="${family.letter}" aria-pressed="${active}" aria-label="Show only family ${family.letter}">${family.letter}</button></th>
         <td><span class="slot" data-slot="${escapeHtml(mostBalanced(family.members).id)}"></span></td><td class="wide">${escapeHtml(family.text)}</td><td class="num">${whole(family.members.length)}</td>${best.join("")}</tr>`;
     });
-    box.innerHTML = `<table class="all families"><thead><tr><th scope="col">Family</th><th scope="col">One of it</th><th scope="col">Singular vertices inside</th><th scope="col">Designs</th>${head.join("")}</tr></thead><tbody>${rows.join("")}</tbody></table>`;
+    box.innerHTML = `<table class="all families"><thead><tr><th scope="col">Family</th><th scope="col">One of it</th><th scope="col">Singular vertices</th><th scope="col">Designs</th>${head.join("")}</tr></thead><tbody>${rows.join("")}</tbody></table>`;
     for (const slot of box.querySelectorAll("[data-slot]")) {
       const design = designById.get(slot.dataset.slot);
       if (!hasMesh(design)) continue;

@@ -4,9 +4,9 @@ function writeHead() {
   const { run } = facts;
   byId("lede").innerHTML = `Topologies for a structured surface structure, found by evolving strings of a quad-mesh grammar. ${frontDesigns.length ? `This page shows the ${plural(frontDesigns.length, "design")} that no other design beats in every objective, against the initial mesh.`
       : "The search found no feasible design: no front to show."} Lengths in metres, masses in kilograms; numbers without a unit are ratios. Pictures are rounded to ${roundingText()}; exact geometry is in <code>designs/</code>, exact numbers in <code>pareto.csv</code>.`;
-  const share = run.evaluations ? ` (${d3.format(".0%")(run.feasible / run.evaluations)})` : "";
+  const share = run.evaluations ? ` (${d3.format(".2~r")((100 * run.feasible) / run.evaluations)} %)` : "";
   const counts = [["designs on the front", whole(frontDesigns.length)], ["evaluated", whole(run.evaluations)], ["feasible", whole(run.feasible) + share],
-    ["duplicates refused", whole(run.duplicates_refused)], ["generations", whole(facts.generations.length)], ["seed", run.seed.length > 9 ? `${run.seed.slice(0, 4)}…${run.seed.slice(-3)}` : run.seed]];
+    ["duplicates refused", whole(run.duplicates_refused)], ["generations", whole(d3.max(facts.generations, (g) => g.generation) ?? 0)], ["seed", run.seed.length > 9 ? `${run.seed.slice(0, 4)}…${run.seed.slice(-3)}` : run.seed]];
   byId("counts").innerHTML = counts.map(([name, text]) => `<div><dt>${name}</dt><dd>${escapeHtml(text)}</dd></div>`).join("");
   byId("foot").textContent = `Written by quadrille ${run.program_version}. Method: Oval, Mesnil, Van Mele, Baverel, Block, “A vector encoding for topology finding of structured quad-based patterns for surface structures”.`;
   byId("config").textContent = facts.config_toml;
@@ -28,7 +28,7 @@ function startToolbar() {
   byId("pin").addEventListener("click", () => togglePin(state.picked));
   const count = () => {
     const others = frontDesigns.filter((d) => !d.baseline), n = others.filter(kept).length;
-    byId("kept").textContent = `${whole(n)} of ${plural(others.length, "design")} within the limits${state.family ? ` and family ${state.family.letter}` : ""}`;
+    byId("kept").textContent = `${whole(n)} of ${plural(others.length, "design")} within the limits${state.family ? `, in family ${state.family.letter}` : ""}${designs.some((d) => d.baseline) ? "; and the baseline" : ""}`;
     byId("clear").disabled = !state.limits.size && !state.family;
   };
   events.on("limits.count", count);

@@ -145,9 +145,9 @@ function sparse(scale, width) {
   return scale.ticks(1).slice(0, 1);
 }
 
-/** Rank correlation of pairs; ties share their mean rank. Null for fewer than three pairs or a constant. */
+/** Rank correlation of pairs; ties share their mean rank. Null for fewer than five pairs or a constant. */
 function spearman(pairs) {
-  if (pairs.length < 3) return null;
+  if (pairs.length < 5) return null;
   const ranks = [0, 1].map((k) => {
     const order = d3.sort(d3.range(pairs.length), (i) => pairs[i][k]), rank = new Array(pairs.length);
     for (let i = 0; i < order.length;) {

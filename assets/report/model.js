@@ -45,20 +45,22 @@ function mostBalanced(candidates) {
   const gap = (d) => d3.sum(objectives, (o) => { const r = relative(d, o); return r === null ? 4 : r * r; });
   return d3.least(candidates, (a, b) => gap(a) - gap(b) || d3.ascending(a.id, b.id));
 }
-const balanced = mostBalanced(frontDesigns) ?? designs[0];
+const balanced = mostBalanced(frontDesigns.filter((d) => !d.baseline)) ?? designs[0];
 
-// Families: the same singularities inside and the same number of poles.
+// Families: the same singularities, but for convex corners, which come with the domain.
+const byValence = (counts, least = 0) => Object.entries(counts).map(([valence, n]) => [Number(valence), n]).filter(([valence]) => valence >= least)
+  .sort((a, b) => a[0] - b[0]);
 function familyKey(singularities) {
   if (!singularities) return "";
-  const { inner, poles } = singularities;
-  return JSON.stringify([Object.entries(inner).map(([v, n]) => [Number(v), n]).sort((a, b) => a[0] - b[0]), poles]);
+  return JSON.stringify([byValence(singularities.inner), byValence(singularities.boundary, 4), singularities.poles]);
 }
 function familyText(singularities) {
   if (!singularities) return "not known";
-  const { inner, poles } = singularities;
-  const parts = Object.entries(inner).map(([valence, n]) => `${n} with ${valence} edges`);
-  if (poles) parts.push(`${poles} ${poles === 1 ? "pole" : "poles"}`);
-  return parts.length ? parts.join(", ") : "none";
+  const { inner, boundary, poles } = singularities;
+  const list = (counts) => counts.map(([valence, n]) => `${n} with ${valence} edges`).join(", ");
+  const [inside, around] = [byValence(inner), byValence(boundary, 4)];
+  const parts = [inside.length && `inside ${list(inside)}`, around.length && `on the boundary ${list(around)}`, poles && `${poles} ${poles === 1 ? "pole" : "poles"}`];
+  return parts.filter(Boolean).join("; ") || "no singularities";
 }
 /** "A" … "Z", "AA" … */
 function letters(i) {
@@ -81,7 +83,7 @@ function number(v) {
   const size = Math.abs(v);
   if (v === 0) return "0";
   if (size >= 1000) return whole(v);
-  return size < 1e-3 ? tiny(v) : four(v);
+  return size < 1e-4 ? tiny(v) : four(v);
 }
 /** Labels of an axis: as many digits as tell its ticks apart, the same for all. */
 function ticksOf(scale, count = 5) {

@@ -58,6 +58,7 @@ function startParallel() {
 
   const path = (d) => d3.line().defined(([, y]) => y !== null)(objectives.map((o, i) => [x(i), known(value(d, o)) ? scales[i](value(d, o)) : null]));
   function drawLines() {
+    svg.classed("few", frontDesigns.length <= 40);
     back.selectAll("path").data(frontDesigns.filter((d) => !d.baseline), (d) => d.id).join("path").attr("d", path);
     restyle();
   }

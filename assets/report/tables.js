@@ -36,7 +36,7 @@ function startShortlist() {
     const body = objectives.map((o) => `<tr><th scope="row" title="${escapeHtml(o.meaning)}">${escapeHtml(o.label)} <span class="muted">1.00 = ${escapeHtml(withUnit(o.most, o))}</span></th>${columns.map((d) => scoreCell(d, o, false)).join("")}</tr>`);
     const words = [
       ["Family", (d) => `${d.family.letter}`],
-      ["Singularities inside", (d) => escapeHtml(d.family.text)],
+      ["Singularities", (d) => escapeHtml(d.family.text)],
       ["String, expressed", (d) => stringOf(d.expressed)],
     ].map(([name, text]) => `<tr class="words-row"><th scope="row">${name}</th>${columns.map((d) => `<td>${text(d)}</td>`).join("")}</tr>`);
     box.innerHTML = `<table class="figure24"><thead><tr><td></td>${head.join("")}</tr></thead><tbody>${body.join("")}${words.join("")}</tbody></table>`;

@@ -25,6 +25,7 @@ mod rejection;
 pub mod relax;
 pub mod sparse;
 pub mod topology;
+pub mod untangle;
 pub mod vector;
 
 pub use develop::{develop, shape, topological_rejection};

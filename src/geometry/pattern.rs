@@ -22,6 +22,11 @@ impl Panel {
         if self.is_triangle() { &self.0[..3] } else { &self.0 }
     }
 
+    /// Its vertices as four, the last of a triangle coming twice.
+    pub fn as_quad(&self) -> [u32; 4] {
+        if self.is_triangle() { [self.0[0], self.0[1], self.0[2], self.0[2]] } else { self.0 }
+    }
+
     /// Whether it has three corners.
     pub fn is_triangle(&self) -> bool {
         self.0[3] == NONE

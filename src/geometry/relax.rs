@@ -10,6 +10,9 @@ use crate::surface::{Surface, SurfaceKind};
 
 /// A step is halved at most this often, then dropped.
 const MAX_HALVINGS: u8 = 8;
+/// A corner whose double area in plan is over this share of the squared diagonals is not looked at more closely; one of a
+/// 1 : 8 rectangle is just below.
+const OPEN_SHARE: f64 = 0.06;
 /// A cotangent is cut off where a triangle has no area left.
 const MAX_COTANGENT: f64 = 1e6;
 
@@ -58,13 +61,7 @@ impl Around {
 impl Mesh {
     /// Prepares a dense mesh of `vertex_count` vertices.
     pub fn new(vertex_count: usize, panels: &[Panel], edges: &[[u32; 2]], loops: &[BoundaryLoop]) -> Self {
-        let quads: Vec<[u32; 4]> = panels
-            .iter()
-            .map(|panel| match *panel.corners() {
-                [a, b, c, d] => [a, b, c, d],
-                _ => [panel.corners()[0], panel.corners()[1], panel.corners()[2], panel.corners()[2]],
-            })
-            .collect();
+        let quads: Vec<[u32; 4]> = panels.iter().map(Panel::as_quad).collect();
         let mut on_boundary = vec![false; vertex_count];
         for &v in loops.iter().flat_map(|l| &l.vertices) {
             on_boundary[v as usize] = true;
@@ -187,11 +184,7 @@ impl<'a> Sweep<'a> {
         for quad in &self.mesh.quads {
             let [a, b, c, d] = quad.map(|v| p[v as usize]);
             let area = 0.5 * norm(cross(sub(c, a), sub(d, b)));
-            let centroid = if Mesh::is_triangle(quad) {
-                scale(add(add(a, b), c), 1.0 / 3.0)
-            } else {
-                scale(add(add(a, b), add(c, d)), 0.25)
-            };
+            let centroid = middle(quad, &[a, b, c, d]);
             let count = if Mesh::is_triangle(quad) { 3 } else { 4 };
             for &v in &quad[..count] {
                 accumulate(&mut self.sums[v as usize], centroid, area);
@@ -332,35 +325,36 @@ impl<'a> Sweep<'a> {
         bad
     }
 
-    #[inline]
     fn check_panel(&self, p: u32, bad: &mut Vec<u32>) {
         let quad = &self.mesh.quads[p as usize];
         let new = quad.map(|v| self.next[v as usize]);
-        if !self.is_free {
-            // Most panels: all four corners still turn left.
-            let [a, b, c, d] = new;
-            if plan_cross(a, b, c) > 0.0
-                && (Mesh::is_triangle(quad)
-                    || (plan_cross(b, c, d) > 0.0 && plan_cross(c, d, a) > 0.0 && plan_cross(d, a, b) > 0.0))
-            {
-                return;
-            }
+        if !self.is_free && is_plainly_open(&new, Mesh::is_triangle(quad)) {
+            return;
         }
         let old = quad.map(|v| self.placed.positions[v as usize]);
-        let count = if Mesh::is_triangle(quad) { 1 } else { 4 };
-        for i in 0..count {
-            let [j, k] = [(i + 1) % 4, (i + 2) % 4];
-            let turned = if self.is_free {
-                let before = cross(sub(old[j], old[i]), sub(old[k], old[i]));
-                let after = cross(sub(new[j], new[i]), sub(new[k], new[i]));
-                dot(before, before) > 0.0 && dot(before, after) <= 0.0
-            } else {
-                plan_cross(old[i], old[j], old[k]) > 0.0 && plan_cross(new[i], new[j], new[k]) <= 0.0
-            };
-            if turned {
-                bad.extend([quad[i], quad[j], quad[k]]);
+        let corners = if Mesh::is_triangle(quad) { 1 } else { 4 };
+        let (before, after) = if self.is_free {
+            let areas = corner_areas(&old);
+            let along = |k: usize, area: Vec3| dot(area, areas[k]);
+            let new_areas = corner_areas(&new);
+            (
+                std::array::from_fn(|k| along(k, areas[k])),
+                std::array::from_fn(|k: usize| along(k, new_areas[k])),
+            )
+        } else {
+            (self.openness(quad, &old), self.openness(quad, &new))
+        };
+        for i in 0..corners {
+            if before[i] > 0.0 && after[i] <= 0.0 {
+                bad.extend([quad[i], quad[(i + 1) % 4], quad[(i + 2) % 4]]);
             }
         }
+    }
+
+    /// For each corner triangle, how far it is from turning over, in plan and against the surface normal; the lesser counts.
+    fn openness(&self, quad: &[u32; 4], panel: &[Vec3; 4]) -> [f64; 4] {
+        let normal = self.surface.normal(middle(quad, panel));
+        corner_areas(panel).map(|area| area[2].min(dot(area, normal)))
     }
 
     fn check_inside(&self, vertices: &[u32], bad: &mut Vec<u32>) {
@@ -390,6 +384,33 @@ fn sliders_of(held: &BoundaryLoop, label: usize) -> Vec<Slider> {
         .filter(|position| !held.anchors.iter().any(|(p, _)| p == position))
         .map(|position| Slider { vertex: held.vertices[position], label, position, range: range(position) })
         .collect()
+}
+
+/// The mean of a panel's corners.
+#[inline]
+fn middle(quad: &[u32; 4], &[a, b, c, d]: &[Vec3; 4]) -> Vec3 {
+    if Mesh::is_triangle(quad) {
+        scale(add(add(a, b), c), 1.0 / 3.0)
+    } else {
+        scale(add(add(a, b), add(c, d)), 0.25)
+    }
+}
+
+/// Cross products of the sides at corners 1, 2, 3 and 0 of a panel.
+#[inline]
+fn corner_areas(&[a, b, c, d]: &[Vec3; 4]) -> [Vec3; 4] {
+    let at = |o: Vec3, u: Vec3, v: Vec3| cross(sub(u, o), sub(v, o));
+    [at(a, b, c), at(b, c, d), at(c, d, a), at(d, a, b)]
+}
+
+/// Whether a panel is so far from folded in plan that it cannot be folded on a roof either: most panels.
+#[inline]
+fn is_plainly_open(&[a, b, c, d]: &[Vec3; 4], is_triangle: bool) -> bool {
+    let (x, y, u, v) = (c[0] - a[0], c[1] - a[1], d[0] - b[0], d[1] - b[1]);
+    let enough = OPEN_SHARE * (x * x + y * y + u * u + v * v);
+    plan_cross(a, b, c) > enough
+        && (is_triangle
+            || (plan_cross(b, c, d) > enough && plan_cross(c, d, a) > enough && plan_cross(d, a, b) > enough))
 }
 
 #[inline]

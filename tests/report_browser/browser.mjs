@@ -5,7 +5,10 @@ import { chromium } from "playwright-core";
 const QUIET = ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
   "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 
-export const launch = () => chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: QUIET });
+/** Longer than a page ever needs, for machines that are busy with something else. */
+const PATIENCE_MS = 120_000;
+
+export const launch = () => chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: QUIET, timeout: PATIENCE_MS });
 
 /** Opens a page of the disk; collects console errors, page errors and requests that leave the disk. */
 export async function open(browser, file, options = {}) {
@@ -16,8 +19,8 @@ export async function open(browser, file, options = {}) {
   page.on("pageerror", (error) => problems.push(`exception: ${error.stack ?? error}`));
   page.on("request", (request) => /^(file|data|blob):/.test(request.url()) || problems.push(`request: ${request.url()}`));
   const started = performance.now();
-  await page.goto(`file://${file}`, { waitUntil: "load" });
-  await page.waitForFunction(() => document.documentElement.dataset.ready === "true", null, { timeout: 20000 })
+  await page.goto(`file://${file}`, { waitUntil: "load", timeout: PATIENCE_MS });
+  await page.waitForFunction(() => document.documentElement.dataset.ready === "true", null, { timeout: PATIENCE_MS })
     .catch(() => problems.push("the page never became ready"));
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   return { page, problems, milliseconds: performance.now() - started };

@@ -6,7 +6,9 @@ mod polar;
 use super::boundary::BoundaryLoop;
 use super::dense::{Dense, Edges};
 use super::laplacian::{Laplacian, Weights};
+use super::pattern::Panel;
 use super::rejection::Rejection;
+use super::untangle::{Corners, untangle};
 use crate::domain::{BoundaryLoop as Curve, Domain};
 use crate::surface::{Surface, SurfaceKind};
 
@@ -41,7 +43,8 @@ pub fn place(
     loops: &[BoundaryLoop],
 ) -> Result<Placed, Rejection> {
     let failed = Rejection::NotFinite { stage: "placing" };
-    let shape = in_plan(domain, dense, edges, loops).ok_or_else(|| failed.clone())?;
+    let mut shape = in_plan(domain, dense, edges, loops).ok_or_else(|| failed.clone())?;
+    unfold(&mut shape, domain, dense, edges);
     let positions =
         lift(domain, surface, edges, loops, shape.plan, &shape.along).ok_or_else(|| failed.clone())?;
     if positions.iter().flatten().all(|x| x.is_finite()) {
@@ -49,6 +52,17 @@ pub fn place(
     } else {
         Err(failed)
     }
+}
+
+/// Turns folded corners over where the linear solves left some.
+fn unfold(shape: &mut Shape, domain: &Domain, dense: &Dense, edges: &Edges) {
+    let mut is_fixed = vec![false; dense.vertex_count];
+    for &v in dense.loops.iter().flatten() {
+        is_fixed[v as usize] = true;
+    }
+    let quads: Vec<[u32; 4]> = dense.panels.iter().map(Panel::as_quad).collect();
+    let size = (domain.area() / quads.len() as f64).sqrt();
+    untangle(&mut shape.plan, &Corners::of(&quads, &is_fixed), &edges.list, &is_fixed, size);
 }
 
 fn in_plan(domain: &Domain, dense: &Dense, edges: &Edges, loops: &[BoundaryLoop]) -> Option<Shape> {
