@@ -45,7 +45,8 @@ fn one_and_two_threads_give_the_same_bytes_and_the_committed_front() {
         assert!(one == two, "{table} depends on the number of threads");
     }
     for table in ["pareto.csv", "generations.csv"] {
-        let [now, committed] = [folders[0].path().join(table), root().join("results/ci").join(table)].map(rows);
+        let [now, committed] =
+            [folders[0].path().join(table), root().join("results/ci").join(table)].map(rows);
         assert_eq!(now.len(), committed.len(), "{table}: other number of rows");
         assert!(now.len() > 3, "{table} is nearly empty: nothing is compared");
         for (line, (now, committed)) in now.iter().zip(&committed).enumerate() {

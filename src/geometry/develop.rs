@@ -5,11 +5,11 @@ use super::check;
 use super::coarse::Coarse;
 use super::corners::{self, LoopCorners};
 use super::dense::{Dense, Edges, densify};
-use super::density;
+use super::density::{self, Densities};
 use super::force_density;
 use super::params::{PatternParams, Pinched, RelaxKind};
 use super::pattern::Pattern;
-use super::place::{self, Placed};
+use super::place::{self, Folds, Placed};
 use super::rejection::Rejection;
 use super::relax;
 use super::topology;
@@ -61,19 +61,14 @@ pub fn shape(
     let corners = corners::assign(&coarse, domain);
     let stage = Stage { coarse: &coarse, domain, surface, corners: &corners };
 
-    let probe = stage.place(&vec![density::PROBE_PARTS; mesh.strips.len()])?;
+    let probe = stage.place(&vec![density::PROBE_PARTS; mesh.strips.len()], Folds::Leave)?;
     let lengths = density::strip_lengths(&coarse, &probe.dense, &probe.placed.positions);
     let densities = density::choose(&coarse, &lengths, params)?;
-    let mut site = stage.place(&densities.parts)?;
-
-    let Site { dense, edges, loops, placed } = &mut site;
-    if params.relax.kind == RelaxKind::ForceDensity {
-        balance(dense, edges, placed, surface)?;
-    } else {
-        let sweeps = relax::Mesh::new(dense.vertex_count, &dense.panels, &edges.list, loops);
-        relax::relax(placed, &sweeps, domain, surface, &params.relax);
+    let pattern = stage.relaxed(&densities, params, Folds::Leave)?;
+    if check::check(&pattern, domain, surface).is_ok() {
+        return Ok(pattern);
     }
-    Ok(site.into_pattern(&coarse, &corners, densities.target_length))
+    stage.relaxed(&densities, params, Folds::Unfold)
 }
 
 /// The net of equal force densities held by the boundary, then back onto the surface.
@@ -110,11 +105,29 @@ struct Site {
 }
 
 impl Stage<'_> {
-    fn place(&self, parts: &[u32]) -> Result<Site, Rejection> {
+    /// Placed and relaxed at the given densities.
+    fn relaxed(
+        &self,
+        densities: &Densities,
+        params: &PatternParams,
+        folds: Folds,
+    ) -> Result<Pattern, Rejection> {
+        let mut site = self.place(&densities.parts, folds)?;
+        let Site { dense, edges, loops, placed } = &mut site;
+        if params.relax.kind == RelaxKind::ForceDensity {
+            balance(dense, edges, placed, self.surface)?;
+        } else {
+            let sweeps = relax::Mesh::new(dense.vertex_count, &dense.panels, &edges.list, loops);
+            relax::relax(placed, &sweeps, self.domain, self.surface, &params.relax);
+        }
+        Ok(site.into_pattern(self.coarse, self.corners, densities.target_length))
+    }
+
+    fn place(&self, parts: &[u32], folds: Folds) -> Result<Site, Rejection> {
         let dense = densify(self.coarse, parts);
         let edges = Edges::of(dense.vertex_count, &dense.panels);
         let loops = boundary::anchor(self.coarse, &dense, self.domain, self.corners)?;
-        let placed = place::place(self.domain, self.surface, &dense, &edges, &loops)?;
+        let placed = place::place(self.domain, self.surface, &dense, &edges, &loops, folds)?;
         Ok(Site { dense, edges, loops, placed })
     }
 }

@@ -31,6 +31,15 @@ pub struct Placed {
     pub along: Vec<Vec<f64>>,
 }
 
+/// What placing does with corners that the linear solves leave folded.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Folds {
+    /// Leaves them: relaxing turns nearly all of them over, and ends more evenly from there.
+    Leave,
+    /// Turns them over before anything else.
+    Unfold,
+}
+
 /// Places every vertex of a dense mesh.
 ///
 /// # Errors
@@ -41,10 +50,13 @@ pub fn place(
     dense: &Dense,
     edges: &Edges,
     loops: &[BoundaryLoop],
+    folds: Folds,
 ) -> Result<Placed, Rejection> {
     let failed = Rejection::NotFinite { stage: "placing" };
     let mut shape = in_plan(domain, dense, edges, loops).ok_or_else(|| failed.clone())?;
-    unfold(&mut shape, domain, dense, edges);
+    if folds == Folds::Unfold {
+        unfold(&mut shape, domain, dense, edges);
+    }
     let positions =
         lift(domain, surface, edges, loops, shape.plan, &shape.along).ok_or_else(|| failed.clone())?;
     if positions.iter().flatten().all(|x| x.is_finite()) {
