@@ -16,7 +16,7 @@ use crate::mesh::isomorphism::{Equivalence, Symmetry, canonical_mesh_under};
 use crate::mesh::{BaseMeshError, CanonicalMesh, Code, InitialMesh, QuadMesh};
 use crate::objectives::{self, AnalysedDesign, METRICS, Metric};
 use crate::random::Rng;
-use crate::search::operators::Growth;
+use crate::search::operators::{Growth, Reach};
 use crate::search::params::EquivalenceParams;
 use crate::search::{Evaluation, Identity, Problem, RuleOperator, SearchParams, round_significant};
 use crate::skeleton::{self, InitialError};
@@ -187,6 +187,11 @@ impl Study {
     /// How strings grow here.
     fn growth(&self) -> Growth<'_> {
         Growth { initial: &self.initial, rules: self.rules, bounds: self.search.tokens }
+    }
+
+    /// All strings that lead from an expressed string one strip further; several may have the same topology.
+    pub fn neighbours(&self, expressed: &Tokens, reach: Reach) -> Vec<Tokens> {
+        self.growth().neighbours(expressed, reach)
     }
 
     /// The codes by which the search tells duplicates (RUN "Redundancy"): the design's own, then those of its

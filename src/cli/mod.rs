@@ -4,20 +4,27 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "the binary is what talks to people")]
 
 mod check;
+mod compare;
 mod completions;
 mod config_args;
 mod console;
 mod decode;
 mod distance;
 mod error;
+mod evaluate;
 mod exit;
+mod explain;
+mod export;
+mod folder_args;
 mod frame;
 mod init;
+mod neighbours;
 mod progress;
 mod report;
 mod run;
 mod skeleton;
 mod topology;
+mod verify;
 
 pub use console::{Console, ConsoleArgs};
 pub use error::CliError;
@@ -41,15 +48,20 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    Decode(decode::Args),
-    Distance(distance::Args),
     Run(run::Args),
+    Evaluate(evaluate::Args),
     Check(check::Args),
     Init(init::Args),
-    Completions(completions::Args),
-    Frame(frame::Args),
     Report(report::Args),
+    Export(export::Args),
+    Explain(explain::Args),
+    Verify(verify::Args),
+    Neighbours(neighbours::Args),
+    Decode(decode::Args),
+    Distance(distance::Args),
     Skeleton(skeleton::Args),
+    Frame(frame::Args),
+    Completions(completions::Args),
 }
 
 /// Runs the program and gives its exit code.
@@ -60,6 +72,11 @@ pub fn main() -> ExitCode {
         Command::Decode(args) => decode::run(&args),
         Command::Distance(args) => distance::run(&args),
         Command::Run(args) => run::run(args, &console),
+        Command::Evaluate(args) => evaluate::run(args, &console),
+        Command::Export(args) => export::run(args, &console),
+        Command::Explain(args) => explain::run(args, &console),
+        Command::Verify(args) => verify::run(args, &console),
+        Command::Neighbours(args) => neighbours::run(args, &console),
         Command::Check(args) => check::run(args, &console),
         Command::Init(args) => init::run(args, &console),
         Command::Frame(args) => frame::run(args, &console),

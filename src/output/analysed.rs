@@ -167,6 +167,10 @@ impl Analysed<'_> {
         let cells: Vec<&[u32]> = members.iter().map(<[u32; 2]>::as_slice).collect();
         let mut fields =
             vec![NamedField { name: "length_m".into(), components: 1, values: self.member_lengths() }];
+        if let Some(governing) = self.governing() {
+            let values = governing.member_utilisation.iter().map(|used| self.utilisation(used)).collect();
+            fields.push(NamedField { name: "utilisation".into(), components: 1, values });
+        }
         for combination in self.combinations() {
             fields.extend(member_fields(combination));
         }

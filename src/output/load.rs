@@ -74,19 +74,19 @@ pub fn load(folder: &Path) -> Result<Loaded, LoadError> {
     Ok(Loaded { manifest, config, config_folder, evaluated, front, generations })
 }
 
-fn read(path: &Path) -> Result<Vec<u8>, LoadError> {
+pub(super) fn read(path: &Path) -> Result<Vec<u8>, LoadError> {
     std::fs::read(path).map_err(|source| LoadError::Read { path: path.to_path_buf(), source })
 }
 
 /// A CSV file by column names.
-struct Sheet {
+pub(super) struct Sheet {
     path: PathBuf,
     columns: BTreeMap<String, usize>,
     lines: Vec<csv::StringRecord>,
 }
 
 impl Sheet {
-    fn read(folder: &Path, name: &str) -> Result<Self, LoadError> {
+    pub(super) fn read(folder: &Path, name: &str) -> Result<Self, LoadError> {
         let path = folder.join(name);
         let bytes = read(&path)?;
         let wrong = |error: csv::Error| LoadError::Format { path: path.clone(), message: error.to_string() };
@@ -95,6 +95,11 @@ impl Sheet {
         let columns = header.iter().enumerate().map(|(i, name)| (name.to_owned(), i)).collect();
         let lines = reader.records().collect::<Result<_, _>>().map_err(wrong)?;
         Ok(Self { path, columns, lines })
+    }
+
+    /// Number of records below the header.
+    pub(super) fn len(&self) -> usize {
+        self.lines.len()
     }
 
     /// An error in a record, counted from 0 below the header.
@@ -108,13 +113,13 @@ impl Sheet {
         self.lines[record].get(*index).ok_or_else(missing)
     }
 
-    fn parse<T: std::str::FromStr>(&self, record: usize, column: &str) -> Result<T, LoadError> {
+    pub(super) fn parse<T: std::str::FromStr>(&self, record: usize, column: &str) -> Result<T, LoadError> {
         let text = self.text(record, column)?;
         text.parse().map_err(|_| self.wrong(record, format!("{column}: found \"{text}\"")))
     }
 
     /// A number, or none for an empty cell or a column that is not there.
-    fn number(&self, record: usize, column: &str) -> Result<Option<f64>, LoadError> {
+    pub(super) fn number(&self, record: usize, column: &str) -> Result<Option<f64>, LoadError> {
         if !self.columns.contains_key(column) || self.text(record, column)?.is_empty() {
             return Ok(None);
         }
@@ -127,7 +132,7 @@ impl Sheet {
 }
 
 fn rows(sheet: &Sheet, columns: &Columns) -> Result<Vec<EvaluatedRow>, LoadError> {
-    (0..sheet.lines.len()).map(|record| row(sheet, record, columns)).collect()
+    (0..sheet.len()).map(|record| row(sheet, record, columns)).collect()
 }
 
 fn row(sheet: &Sheet, record: usize, columns: &Columns) -> Result<EvaluatedRow, LoadError> {
@@ -163,7 +168,7 @@ fn generations(sheet: &Sheet, columns: &Columns) -> Result<Vec<GenerationRow>, L
     let all = |record: usize, columns: &[String]| -> Result<Vec<f64>, LoadError> {
         Ok(sheet.numbers(record, columns)?.into_iter().collect::<Option<_>>().unwrap_or_default())
     };
-    (0..sheet.lines.len())
+    (0..sheet.len())
         .map(|record| {
             Ok(GenerationRow {
                 generation: sheet.parse(record, "generation")?,

@@ -1,6 +1,7 @@
 //! The plan of a pattern as SVG: panels shaded by a value, coarse edges, boundary, singularities.
 
 use super::number::rounded;
+use super::polygons::Polygons;
 use crate::geometry::Pattern;
 use crate::geometry::metrics::valences;
 use std::collections::BTreeMap;
@@ -33,7 +34,7 @@ text{font:12px sans-serif;fill:#111}";
 /// The plan, y up, with singular vertices marked: a vermilion triangle for fewer than regular members, a blue square
 /// for more, a black diamond for a pole, a white dot for a corner of the domain.
 pub fn svg(pattern: &Pattern, title: &str, shade: Option<&Shade<'_>>) -> Vec<u8> {
-    let frame = Frame::of(pattern);
+    let frame = Frame::of(&pattern.positions);
     let legend = if shade.is_some() { 20.0 } else { 0.0 };
     let (width, height) = (frame.width + 2.0 * MARGIN, frame.height + 2.0 * MARGIN + legend);
     let mut text = String::new();
@@ -48,14 +49,32 @@ pub fn svg(pattern: &Pattern, title: &str, shade: Option<&Shade<'_>>) -> Vec<u8>
     panels(&mut text, pattern, &frame, shade);
     let _ = writeln!(text, "<path class=\"coarse\" d=\"{}\"/>", coarse_edges(pattern, &frame));
     for boundary_loop in &pattern.loops {
-        let _ =
-            writeln!(text, "<path class=\"boundary\" d=\"{}\"/>", outline(&frame, pattern, boundary_loop));
+        let _ = writeln!(
+            text,
+            "<path class=\"boundary\" d=\"{}\"/>",
+            outline(&frame, &pattern.positions, boundary_loop)
+        );
     }
     marks(&mut text, pattern, &frame);
     if let Some(shade) = shade {
         draw_legend(&mut text, shade, height - 14.0);
     }
     text.push_str("</svg>\n");
+    text.into_bytes()
+}
+
+/// The plan of any mesh: its faces, without marks.
+pub fn outlines(mesh: &Polygons<'_>, title: &str) -> Vec<u8> {
+    let frame = Frame::of(mesh.positions);
+    let paths: String = mesh.faces.iter().map(|face| outline(&frame, mesh.positions, face)).collect();
+    let text = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" role=\"img\">\n<title>{}</title>\n\
+         <style>{STYLE}</style>\n<g class=\"panels\"><path fill=\"{}\" d=\"{paths}\"/></g>\n</svg>\n",
+        rounded(frame.width + 2.0 * MARGIN, 1),
+        rounded(frame.height + 2.0 * MARGIN, 1),
+        escape(title),
+        sand(0.25)
+    );
     text.into_bytes()
 }
 
@@ -69,10 +88,10 @@ struct Frame {
 }
 
 impl Frame {
-    fn of(pattern: &Pattern) -> Self {
+    fn of(positions: &[[f64; 3]]) -> Self {
         let mut low = [f64::INFINITY; 2];
         let mut high = [f64::NEG_INFINITY; 2];
-        for position in &pattern.positions {
+        for position in positions {
             for axis in 0..2 {
                 low[axis] = low[axis].min(position[axis]);
                 high[axis] = high[axis].max(position[axis]);
@@ -94,8 +113,8 @@ impl Frame {
     }
 }
 
-fn outline(frame: &Frame, pattern: &Pattern, vertices: &[u32]) -> String {
-    let points: Vec<String> = vertices.iter().map(|&v| frame.write(pattern.positions[v as usize])).collect();
+fn outline(frame: &Frame, positions: &[[f64; 3]], vertices: &[u32]) -> String {
+    let points: Vec<String> = vertices.iter().map(|&v| frame.write(positions[v as usize])).collect();
     format!("M{}Z", points.join("L"))
 }
 
@@ -104,7 +123,7 @@ fn panels(text: &mut String, pattern: &Pattern, frame: &Frame, shade: Option<&Sh
     for (index, panel) in pattern.panels.iter().enumerate() {
         let share = shade.map_or(0.25, |shade| shade.share(index));
         let class = (share * SHADES as f64).round() as usize;
-        paths[class].push_str(&outline(frame, pattern, panel.corners()));
+        paths[class].push_str(&outline(frame, &pattern.positions, panel.corners()));
     }
     text.push_str("<g class=\"panels\">\n");
     for (class, path) in paths.iter().enumerate().filter(|(_, path)| !path.is_empty()) {

@@ -9,14 +9,13 @@ mod encode;
 mod measure;
 mod page;
 mod read;
-mod rows;
+mod shape;
 
 pub use choose::worth_a_mesh;
 pub use data::{
     Design, Generation, Mark, Mesh, Metric, ReportData, Run, Sample, Singular, Singularities, Spread,
 };
 pub use read::read;
-pub use rows::ReadError;
 
 /// Why a report cannot be made. All of these are mistakes of the caller: a run's own data satisfies them.
 #[derive(Debug, thiserror::Error)]

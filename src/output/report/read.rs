@@ -1,13 +1,14 @@
 //! From a results folder to [`ReportData`]: what the files say is what the page shows.
 
 use super::choose::worth_a_mesh;
-use super::data::{Design, Generation, Mesh, Metric, ReportData, Run, Sample, Spread};
-use super::rows::{Line, ReadError, Sheet};
-use super::{measure, rows};
-use crate::objectives::METRICS;
-use crate::output::designs::{FIRST, LAST};
-use crate::output::folder;
+use super::data::{Design, Generation, Metric, ReportData, Run, Sample, Spread};
+use super::{measure, shape};
+use crate::objectives::{self, METRICS};
+use crate::output::designs;
+use crate::output::folder::DESIGNS;
+use crate::output::load::{LoadError, Loaded, load};
 use crate::output::manifest::Manifest;
+use crate::search::{EvaluatedRow, GenerationRow};
 use std::path::Path;
 
 /// Bytes of the page that meshes may take; the rest of 15 MB is for libraries and numbers.
@@ -15,38 +16,33 @@ const MESH_BUDGET: usize = 13_000_000;
 /// Bytes that a packed mesh takes per panel, generously (measured: 26).
 const BYTES_PER_PANEL: usize = 28;
 
-/// Reads a results folder: `manifest.json`, the CSV files and, for pictures, `designs/ID.json` and `ID_members.csv`.
+/// Reads a results folder: tables, manifest and, for pictures, `designs/ID.json` and `ID_members.csv`.
 ///
 /// Of a front too large for one page some designs come without a mesh ([`worth_a_mesh`]); the baseline keeps its own.
 /// A design whose mesh file is missing has no picture, and one whose member file is missing no utilisation.
 ///
 /// # Errors
-/// [`ReadError`]: a file that is missing or cannot be read, by name and line.
-pub fn read(folder: &Path) -> Result<ReportData, ReadError> {
-    let manifest: Manifest = rows::json(&folder.join(folder::MANIFEST))?;
-    let pareto = Sheet::read(&folder.join(folder::PARETO))?;
-    let history = Sheet::read(&folder.join(folder::HISTORY))?;
-    let columns: Vec<&str> = metric_columns(&pareto).collect();
-    let objectives = objective_places(&manifest, &columns, &pareto)?;
-    let mut front = designs(&pareto, &columns)?;
-    let mut baseline = baseline(&history, &columns)?;
-    let meshes = folder.join(folder::DESIGNS);
-    for design in front.iter_mut().chain(&mut baseline) {
-        add_mesh(design, &meshes)?;
-    }
-    keep_within_budget(&mut front, &objectives);
+/// [`LoadError`]: a file that is missing or cannot be read, by name and line.
+pub fn read(folder: &Path) -> Result<ReportData, LoadError> {
+    let Loaded { manifest, config, evaluated, front, generations, .. } = load(folder)?;
+    let shown = Shown::of(&config.objectives.minimise, &evaluated);
+    let shapes = folder.join(DESIGNS);
+    let mut rows: Vec<Design> =
+        front.iter().map(|&row| shown.design(&evaluated[row], &shapes)).collect::<Result<_, _>>()?;
+    // Any string of which nothing is expressed gives the initial mesh.
+    let initial = evaluated.iter().find(|row| row.expressed.is_empty());
+    let baseline = initial.map(|row| shown.design(row, &shapes)).transpose()?;
+    keep_within_budget(&mut rows, shown.objectives);
     Ok(ReportData {
         run: run(&manifest),
-        metrics: columns.iter().map(|column| metric(column)).collect(),
-        spread: spread(&history, &manifest.objectives)?,
-        generations: generations(&Sheet::read(&folder.join(folder::GENERATIONS))?)?,
-        objectives,
-        front,
+        metrics: shown.places.iter().map(|&place| metric(METRICS[place])).collect(),
+        objectives: (0..shown.objectives).collect(),
+        design_files: rows.first().map(|design| shape::endings(&shapes, &design.id)).unwrap_or_default(),
+        front: rows,
         baseline,
+        generations: generations.iter().map(generation).collect(),
+        spread: shown.spread(&evaluated),
         config_toml: manifest.config,
-        design_files: [".obj", ".json", ".svg", ".vtu", "_nodes.csv", "_members.csv"]
-            .map(str::to_owned)
-            .to_vec(),
     })
 }
 
@@ -62,115 +58,92 @@ fn run(manifest: &Manifest) -> Run {
     }
 }
 
-/// All columns with numbers: what is left of the header without its words.
-fn metric_columns(sheet: &Sheet) -> impl Iterator<Item = &str> {
-    sheet.columns().filter(|column| !FIRST.contains(column) && !LAST.contains(column))
+fn generation(row: &GenerationRow) -> Generation {
+    Generation {
+        generation: row.generation,
+        evaluations: row.evaluations,
+        feasible: row.feasible,
+        front: row.front,
+        hypervolume: row.hypervolume,
+        duplicates_refused: row.breeding.duplicates + row.breeding.neighbours,
+    }
 }
 
-fn objective_places(manifest: &Manifest, columns: &[&str], sheet: &Sheet) -> Result<Vec<usize>, ReadError> {
-    let place =
-        |name: &String| columns.iter().position(|column| column == name).ok_or_else(|| sheet.lacks(name));
-    manifest.objectives.iter().map(place).collect()
-}
-
-fn metric(column: &str) -> Metric {
-    let known = METRICS.iter().find(|metric| metric.column == column);
-    let name = known.map_or(column, |metric| metric.name).replace('_', " ");
+fn metric(metric: &objectives::Metric) -> Metric {
+    let name = metric.name.replace('_', " ");
     let mut letters = name.chars();
     let label = letters.next().map(|first| first.to_uppercase().chain(letters).collect());
     Metric {
         label: label.unwrap_or_default(),
-        column: column.to_owned(),
-        unit: known.map_or_else(String::new, |metric| metric.unit.to_owned()),
-        meaning: known.map_or_else(String::new, |metric| metric.about.to_owned()),
+        column: metric.column.to_owned(),
+        unit: metric.unit.to_owned(),
+        meaning: metric.about.to_owned(),
     }
 }
 
-fn designs(sheet: &Sheet, columns: &[&str]) -> Result<Vec<Design>, ReadError> {
-    sheet.lines().map(|line| design(&line, columns)).collect()
+/// Which metrics the page shows: the objectives, then every other that some design has; as places in [`METRICS`].
+struct Shown {
+    places: Vec<usize>,
+    objectives: usize,
 }
 
-fn design(line: &Line<'_>, columns: &[&str]) -> Result<Design, ReadError> {
-    let values: Result<_, ReadError> = columns.iter().map(|column| line.number(column)).collect();
-    Ok(Design {
-        id: line.text("id")?.to_owned(),
-        string: line.text("string")?.to_owned(),
-        expressed: line.text("expressed")?.to_owned(),
-        generation: line.count("generation")? as u32,
-        feasible: line.text("feasible")? == "true",
-        reason: line.text("reason").ok().filter(|reason| !reason.is_empty()).map(str::to_owned),
-        values: values?,
-        singularities: None,
-        mesh: None,
-    })
-}
+impl Shown {
+    fn of(minimised: &[String], evaluated: &[EvaluatedRow]) -> Self {
+        let place = |name: &String| METRICS.iter().position(|metric| metric.name == name);
+        let mut places: Vec<usize> = minimised.iter().filter_map(place).collect();
+        let objectives = places.len();
+        let exists = |place: &usize| evaluated.iter().any(|row| row.metrics.get(*place).is_some());
+        let others = (0..METRICS.len()).filter(|place| !places.contains(place)).filter(exists);
+        places.extend(others.collect::<Vec<_>>());
+        Self { places, objectives }
+    }
 
-/// The design of the empty string; any other string of which nothing is expressed gives the same one.
-fn baseline(history: &Sheet, columns: &[&str]) -> Result<Option<Design>, ReadError> {
-    for line in history.lines() {
-        if line.text("expressed")?.is_empty() {
-            return design(&line, columns).map(Some);
+    fn design(&self, row: &EvaluatedRow, shapes: &Path) -> Result<Design, LoadError> {
+        let mut design = Design {
+            id: designs::id(row.code),
+            string: row.tokens.to_string(),
+            expressed: row.expressed.to_string(),
+            generation: row.generation,
+            feasible: row.is_feasible(),
+            reason: (!row.reason.is_empty()).then(|| row.reason.to_string()),
+            values: self.places.iter().map(|&place| row.metrics.get(place)).collect(),
+            singularities: None,
+            mesh: None,
+        };
+        if let Some((positions, panels)) = shape::compas(&shapes.join(format!("{}.json", design.id)))? {
+            let mut mesh = measure::mesh(positions, panels);
+            mesh.utilisation =
+                shape::utilisation(shapes, &format!("{}_members.csv", design.id), &mesh.edges)?;
+            design.singularities = Some(measure::singularities(&mesh));
+            design.mesh = Some(mesh);
         }
+        Ok(design)
     }
-    Ok(None)
+
+    /// Objectives of the feasible designs evaluated in the first and in the last generation that has any.
+    fn spread(&self, evaluated: &[EvaluatedRow]) -> Spread {
+        let feasible = || evaluated.iter().filter(|row| row.is_feasible());
+        let values = |row: &EvaluatedRow| {
+            self.places[..self.objectives].iter().map(|&place| row.metrics.get(place)).collect()
+        };
+        let sample = |generation: Option<u32>| {
+            generation.map_or_else(Sample::default, |generation| Sample {
+                label: format!("generation {generation}"),
+                rows: feasible().filter(|row| row.generation == generation).map(values).collect(),
+            })
+        };
+        let generations = || feasible().map(|row| row.generation);
+        Spread { first: sample(generations().min()), last: sample(generations().max()) }
+    }
 }
 
-/// Adds what the design's files say of its shape.
-fn add_mesh(design: &mut Design, folder: &Path) -> Result<(), ReadError> {
-    let Some((positions, panels)) = rows::compas(&folder.join(format!("{}.json", design.id)))? else {
-        return Ok(());
-    };
-    let mut mesh = measure::mesh(positions, panels);
-    mesh.utilisation = rows::utilisation(&folder.join(format!("{}_members.csv", design.id)), &mesh.edges)?;
-    design.singularities = Some(measure::singularities(&mesh));
-    design.mesh = Some(mesh);
-    Ok(())
-}
-
-fn keep_within_budget(front: &mut [Design], objectives: &[usize]) {
+fn keep_within_budget(front: &mut [Design], objectives: usize) {
     let panels: usize = front.iter().filter_map(|d| d.mesh.as_ref()).map(|mesh| mesh.panels.len()).sum();
     let each = (panels / front.len().max(1)).max(1) * BYTES_PER_PANEL;
     let table: Vec<Vec<Option<f64>>> =
-        front.iter().map(|design| objectives.iter().map(|&o| design.values[o]).collect()).collect();
+        front.iter().map(|design| design.values[..objectives].to_vec()).collect();
     let kept = worth_a_mesh(&table, MESH_BUDGET / each);
     for (place, design) in front.iter_mut().enumerate() {
-        design.mesh = design.mesh.take().filter(|_: &Mesh| kept.binary_search(&place).is_ok());
+        design.mesh = design.mesh.take().filter(|_| kept.binary_search(&place).is_ok());
     }
-}
-
-fn generations(sheet: &Sheet) -> Result<Vec<Generation>, ReadError> {
-    let row = |line: Line<'_>| {
-        Ok(Generation {
-            generation: line.count("generation")? as u32,
-            evaluations: line.count("evaluations")?,
-            feasible: line.count("feasible")?,
-            front: line.count("front_size")?,
-            hypervolume: line.number("hypervolume")?,
-            duplicates_refused: line.count("duplicates_refused")? + line.count("neighbours_refused")?,
-        })
-    };
-    sheet.lines().map(row).collect()
-}
-
-/// Objectives of the feasible designs evaluated in the first and in the last generation that has any.
-fn spread(history: &Sheet, objectives: &[String]) -> Result<Spread, ReadError> {
-    let mut feasible: Vec<(u64, Vec<Option<f64>>)> = Vec::new();
-    for line in history.lines() {
-        if line.text("feasible")? == "true" {
-            let values: Result<_, ReadError> = objectives.iter().map(|column| line.number(column)).collect();
-            feasible.push((line.count("generation")?, values?));
-        }
-    }
-    let sample = |generation: Option<u64>| {
-        generation.map_or_else(Sample::default, |generation| Sample {
-            label: format!("generation {generation}"),
-            rows: feasible
-                .iter()
-                .filter(|(g, _)| *g == generation)
-                .map(|(_, values)| values.clone())
-                .collect(),
-        })
-    };
-    let all = || feasible.iter().map(|&(generation, _)| generation);
-    Ok(Spread { first: sample(all().min()), last: sample(all().max()) })
 }

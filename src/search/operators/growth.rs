@@ -3,6 +3,7 @@
 use super::append_deletion::append_deletion;
 use super::append_strip::append_strip;
 use super::aware::aware;
+use super::neighbours::{Reach, neighbours};
 use super::random::{structured, uniform};
 use super::{drop_last, swap_pair};
 use crate::grammar::{Rules, Tokens, Walker};
@@ -43,6 +44,11 @@ impl Growth<'_> {
             RuleOperator::DropLast => drop_last(expressed),
             RuleOperator::SwapPair => swap_pair(expressed, rng),
         }
+    }
+
+    /// All strings that lead from an expressed string one strip further; several may have the same topology.
+    pub fn neighbours(&self, expressed: &Tokens, reach: Reach) -> Vec<Tokens> {
+        neighbours(&self.read(expressed), expressed, reach)
     }
 
     fn start(&self) -> Walker {

@@ -1,0 +1,158 @@
+//! Designs side by side: all metrics, absolute and normalised by the largest, non-dominated ones marked.
+
+use quadrille::evolve::{Domination, compare_objectives};
+use quadrille::grammar::Tokens;
+use quadrille::mesh::Code;
+use quadrille::objectives::METRICS;
+use quadrille::output::designs::id;
+use quadrille::output::number::shortest;
+use quadrille::output::table::{Cell, Table};
+use quadrille::search::Evaluation;
+use quadrille::study::{Effort, Study};
+use rayon::prelude::*;
+use std::fmt::Write;
+
+/// One design.
+pub struct Entry {
+    /// What the user calls it.
+    pub name: String,
+    /// Its string.
+    pub tokens: Tokens,
+    /// Its placed + reduced code.
+    pub code: Code,
+    /// Its numbers, or why it has none.
+    pub evaluation: Evaluation,
+}
+
+impl Entry {
+    /// First 12 digits of its code.
+    pub fn id(&self) -> String {
+        id(self.code)
+    }
+}
+
+/// Designs to compare.
+pub struct Comparison {
+    /// The designs, in the given order.
+    pub entries: Vec<Entry>,
+    objectives: Vec<&'static str>,
+}
+
+impl Comparison {
+    /// Evaluates all strings with every number that can be had.
+    pub fn of(study: &Study, named: Vec<(String, Tokens)>) -> Self {
+        let evaluate = |(name, tokens): (String, Tokens)| {
+            let topology = study.topology(&tokens);
+            let code = topology.code;
+            Entry { name, tokens, code, evaluation: study.evaluate_topology(topology, Effort::Everything) }
+        };
+        Self {
+            entries: named.into_par_iter().map(evaluate).collect(),
+            objectives: study.objectives.iter().map(|objective| objective.name).collect(),
+        }
+    }
+
+    /// Whether no other feasible design is at least as good in all objectives and better in one.
+    pub fn is_non_dominated(&self, index: usize) -> bool {
+        let own = &self.entries[index].evaluation;
+        let better = |other: &Entry| {
+            other.evaluation.violation.is_feasible()
+                && compare_objectives(&other.evaluation.objectives, &own.objectives) == Domination::First
+        };
+        own.violation.is_feasible() && !self.entries.iter().any(better)
+    }
+
+    /// All metrics of all designs.
+    pub fn table(&self) -> Table {
+        self.with(|value, _| value)
+    }
+
+    /// Every metric divided by the largest of these designs.
+    pub fn normalised(&self) -> Table {
+        self.with(|value, largest| if largest > 0.0 { value / largest } else { 0.0 })
+    }
+
+    fn with(&self, number: impl Fn(f64, f64) -> f64) -> Table {
+        let head = ["name", "string", "id", "feasible", "non_dominated"];
+        let columns = METRICS.iter().map(|metric| metric.column);
+        let mut table = Table::new(head.into_iter().chain(columns).chain(["reason"]));
+        for (index, entry) in self.entries.iter().enumerate() {
+            let evaluation = &entry.evaluation;
+            let mut cells: Vec<Cell> = vec![
+                entry.name.clone().into(),
+                entry.tokens.to_string().into(),
+                entry.id().into(),
+                evaluation.violation.is_feasible().into(),
+                self.is_non_dominated(index).into(),
+            ];
+            cells.extend(
+                (0..METRICS.len())
+                    .map(|m| Cell::from(self.value(entry, m).map(|value| number(value, self.largest(m))))),
+            );
+            cells.push(evaluation.reason.clone().into());
+            table.rows.push(cells);
+        }
+        table
+    }
+
+    fn value(&self, entry: &Entry, metric: usize) -> Option<f64> {
+        entry.evaluation.metrics.get(metric).copied().flatten()
+    }
+
+    fn largest(&self, metric: usize) -> f64 {
+        let values = self.entries.iter().filter_map(|entry| self.value(entry, metric));
+        values.fold(0.0, |largest, value| largest.max(value.abs()))
+    }
+
+    /// One column a design, one line a metric: the objectives first, absolute and (normalised).
+    pub fn to_text(&self) -> String {
+        let mut text = String::new();
+        for (index, entry) in self.entries.iter().enumerate() {
+            let mark = if self.is_non_dominated(index) { "*" } else { " " };
+            let state = match entry.evaluation.violation.is_feasible() {
+                true => "feasible".to_owned(),
+                false => format!("not feasible: {}", entry.evaluation.reason),
+            };
+            let _ = writeln!(text, "{mark} [{}] {}  {}  {state}", index + 1, entry.id(), shown(&entry.name));
+        }
+        text.push_str("\n* no other of these designs is better in every objective\n\n");
+        let _ = write!(text, "{:<26}", "");
+        for index in 0..self.entries.len() {
+            let _ = write!(text, "{:>20}", format!("[{}]", index + 1));
+        }
+        text.push('\n');
+        let (first, rest): (Vec<usize>, Vec<usize>) =
+            (0..METRICS.len()).partition(|&m| self.objectives.contains(&METRICS[m].name));
+        for metric in first.into_iter().chain(rest) {
+            self.line(&mut text, metric);
+        }
+        text
+    }
+
+    fn line(&self, text: &mut String, metric: usize) {
+        if self.entries.iter().all(|entry| self.value(entry, metric).is_none()) {
+            return;
+        }
+        let largest = self.largest(metric);
+        let _ = write!(text, "{:<26}", METRICS[metric].column);
+        for entry in &self.entries {
+            let cell = match self.value(entry, metric) {
+                Some(value) if largest > 0.0 => format!("{} ({:.2})", significant(value), value / largest),
+                Some(value) => significant(value),
+                None => "–".into(),
+            };
+            let _ = write!(text, "{cell:>20}");
+        }
+        text.push('\n');
+    }
+}
+
+/// Five significant digits, as a table for people has them.
+pub fn significant(value: f64) -> String {
+    let rounded: f64 = format!("{value:.4e}").parse().unwrap_or(value);
+    shortest(rounded).unwrap_or_default()
+}
+
+fn shown(name: &str) -> &str {
+    if name.is_empty() { "(the empty string: the initial mesh)" } else { name }
+}

@@ -1,0 +1,102 @@
+//! `quadrille evaluate`: the designer's mode (paper, Figure 24).
+
+use super::compare::Comparison;
+use super::config_args::ConfigArgs;
+use super::{CliError, Console};
+use quadrille::grammar::Tokens;
+use quadrille::output::atomic;
+use quadrille::output::results::Developed;
+use quadrille::study::Study;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Decode and evaluate given strings: a table of all metrics, absolute and normalised by the largest.
+///
+/// Every number is computed even where a limit is exceeded. Designs that no other of these dominates are marked with
+/// `*`. With --out, tables (evaluation.csv, normalised.csv) and the files of every design are written too.
+#[derive(clap::Args)]
+pub struct Args {
+    #[command(flatten)]
+    config: ConfigArgs,
+    /// A string, such as ATTA; may be given several times.
+    #[arg(long, value_name = "S", required_unless_present = "strings")]
+    string: Vec<String>,
+    /// A CSV file with a column `string` and, if wanted, a column `name`.
+    #[arg(long, value_name = "FILE.csv")]
+    strings: Option<PathBuf>,
+    /// Write tables, meshes and pictures into this folder.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// Evaluates and compares.
+pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
+    let config = args.config.load(&[])?;
+    let mut named: Vec<(String, Tokens)> = Vec::new();
+    for text in &args.string {
+        named.push((text.clone(), parse("--string", text)?));
+    }
+    if let Some(file) = &args.strings {
+        named.extend(read_strings(file)?);
+    }
+    let study = args.config.study(&config)?;
+    let comparison = Comparison::of(&study, named);
+    print!("{}", comparison.to_text());
+    if let Some(folder) = &args.out {
+        write(folder, &study, &config, &comparison, console)?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// A string, or what is wrong with it and where.
+pub fn parse(place: &str, text: &str) -> Result<Tokens, CliError> {
+    text.parse().map_err(|error| CliError::Input(format!("{place} \"{text}\": {error}")))
+}
+
+fn read_strings(file: &Path) -> Result<Vec<(String, Tokens)>, CliError> {
+    let wrong = |message: String| CliError::Input(format!("{}: {message}", file.display()));
+    let bytes = std::fs::read(file).map_err(CliError::read(file))?;
+    let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(&bytes);
+    let mut reader = csv::ReaderBuilder::new().flexible(true).from_reader(bytes);
+    let header = reader.headers().map_err(|error| wrong(error.to_string()))?.clone();
+    let column = |name: &str| header.iter().position(|heading| heading.trim() == name);
+    let strings = column("string").ok_or_else(|| {
+        let found: Vec<&str> = header.iter().collect();
+        wrong(format!("line 1: no column `string`; found {}", found.join(", ")))
+    })?;
+    let mut named = Vec::new();
+    for record in reader.records() {
+        let record = record.map_err(|error| wrong(error.to_string()))?;
+        let line = record.position().map_or(0, csv::Position::line);
+        let text = record.get(strings).unwrap_or_default();
+        let name = column("name").and_then(|index| record.get(index)).filter(|name| !name.is_empty());
+        let tokens = parse(&format!("{}:{line}:", file.display()), text)?;
+        named.push((name.unwrap_or(text).to_owned(), tokens));
+    }
+    Ok(named)
+}
+
+fn write(
+    folder: &Path,
+    study: &Study,
+    config: &quadrille::config::Config,
+    comparison: &Comparison,
+    console: &Console,
+) -> Result<(), CliError> {
+    let designs = folder.join("designs");
+    std::fs::create_dir_all(&designs).map_err(CliError::write(&designs))?;
+    let save = |path: PathBuf, bytes: &[u8]| atomic::write(&path, bytes).map_err(CliError::write(&path));
+    save(folder.join("evaluation.csv"), &comparison.table().to_csv())?;
+    save(folder.join("normalised.csv"), &comparison.normalised().to_csv())?;
+    for entry in &comparison.entries {
+        match Developed::of(study, config, &entry.tokens) {
+            Ok(developed) => {
+                for (name, bytes) in developed.files(&entry.id()) {
+                    save(designs.join(name), &bytes)?;
+                }
+            }
+            Err(reason) => console.warn(&format!("no files for {}: {reason}", entry.name)),
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,124 @@
+//! `quadrille explain`: what governs a design, where and by how much.
+
+use super::compare::significant;
+use super::folder_args::{find, open};
+use super::{CliError, Console};
+use quadrille::objectives::METRICS;
+use quadrille::output::designs::id;
+use quadrille::output::load::Loaded;
+use quadrille::output::results::Developed;
+use quadrille::search::EvaluatedRow;
+use quadrille::structure::gridshell::{Detailed, Place};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Tell in words what governs a design: limits and requirements, where they are reached, and its standing.
+///
+/// Nodes and members are numbered as in ID_nodes.csv and ID_members.csv (`quadrille export --format csv`).
+#[derive(clap::Args)]
+pub struct Args {
+    /// The results folder of a run.
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+    /// The design: its id, or the beginning of it; any of history.csv.
+    #[arg(value_name = "ID")]
+    design: String,
+}
+
+/// Tells.
+pub fn run(args: Args, _console: &Console) -> Result<ExitCode, CliError> {
+    let (loaded, study) = open(&args.folder)?;
+    let row = find(&loaded, &args.design)?;
+    println!("design {}: \"{}\"", id(row.code), row.tokens);
+    println!("expressed \"{}\", generation {}", row.expressed, row.generation);
+    match row.is_feasible() {
+        true => println!("feasible"),
+        false => println!("not feasible (stage {}): {}", row.violation.stage, row.reason),
+    }
+    standing(&loaded, row);
+    let developed = match Developed::of(&study, &loaded.config, &row.tokens) {
+        Ok(developed) => developed,
+        Err(reason) => {
+            println!("\nno pattern: {reason}");
+            return Ok(ExitCode::SUCCESS);
+        }
+    };
+    println!("\nlimits of the pattern");
+    for limit in &developed.design.limits {
+        let state = if limit.excess > 0.0 { "EXCEEDED" } else { "kept" };
+        println!("  {:<22} {:>12}  limit {:>10}  {state}", limit.name, significant(limit.value), limit.limit);
+    }
+    if let Some(results) = &developed.results {
+        requirements(results, &developed.design.pattern.positions);
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Each objective against the best of the front.
+fn standing(loaded: &Loaded, row: &EvaluatedRow) {
+    println!("\nobjectives, and the range of the front");
+    for (index, name) in loaded.config.objectives.minimise.iter().enumerate() {
+        let column =
+            METRICS.iter().find(|metric| metric.name == name).map_or(name.as_str(), |metric| metric.column);
+        let front = loaded.front.iter().filter_map(|&f| loaded.evaluated[f].objectives.get(index).copied());
+        let (low, high) = front.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+        let own = row.objectives.get(index).map_or("–".into(), |&value| significant(value));
+        if low.is_finite() {
+            println!("  {column:<22} {own:>12}  {} to {}", significant(low), significant(high));
+        } else {
+            println!("  {column:<22} {own:>12}");
+        }
+    }
+}
+
+fn requirements(results: &Detailed, positions: &[[f64; 3]]) {
+    println!("\nrequirements");
+    for requirement in &results.response.requirements {
+        let sign = if requirement.upper { "≤" } else { "≥" };
+        println!(
+            "  {:<22} {:>12}  {sign} {:<8} {:>4.0} % used, in {}, at {}",
+            requirement.quantity.to_string(),
+            significant(requirement.value),
+            requirement.limit,
+            100.0 * requirement.used(),
+            requirement.combination,
+            describe(requirement.place, results, positions)
+        );
+    }
+    match results.response.governing() {
+        Some(governing) if governing.excess() > 0.0 => {
+            println!(
+                "{} governs: its limit is exceeded by {:.0} %",
+                governing.quantity,
+                100.0 * governing.excess()
+            );
+        }
+        Some(governing) => {
+            println!(
+                "{} governs: {:.0} % of its limit is used",
+                governing.quantity,
+                100.0 * governing.used()
+            );
+        }
+        None => println!("none is configured"),
+    }
+}
+
+/// A place with its coordinates.
+fn describe(place: Place, results: &Detailed, positions: &[[f64; 3]]) -> String {
+    let at = |node: u32| {
+        let nodes = results.model.frame.nodes();
+        let [x, y, z] =
+            nodes.get(node as usize).or_else(|| positions.get(node as usize)).copied().unwrap_or_default();
+        format!("({x:.2}, {y:.2}, {z:.2}) m")
+    };
+    match place {
+        Place::Node(node) => format!("node {node} {}", at(node)),
+        Place::Edge(edge) => {
+            let member = results.model.edge.iter().position(|&e| e == edge);
+            let start = member.map(|m| results.model.frame.members()[m].start);
+            format!("member {edge}{}", start.map_or(String::new(), |node| format!(" from {}", at(node))))
+        }
+        Place::Whole => "the structure as a whole".into(),
+    }
+}

@@ -1,0 +1,97 @@
+//! `quadrille neighbours`: every design one strip away.
+
+use super::compare::{Comparison, significant};
+use super::config_args::ConfigArgs;
+use super::evaluate::parse;
+use super::{CliError, Console};
+use quadrille::objectives::Metric;
+use quadrille::output::atomic;
+use quadrille::search::operators::Reach;
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Evaluate every design one strip added or deleted away, and compare.
+///
+/// Every strip that can be deleted is; strips are added along every simple polyedge of at most --edges edges from
+/// boundary to boundary (with --poles also from and to inner vertices). Says in how many objectives the given string
+/// is better than all of them, and lists the best neighbours for each. The same topology is evaluated once.
+#[derive(clap::Args)]
+pub struct Args {
+    #[command(flatten)]
+    config: ConfigArgs,
+    /// The string.
+    #[arg(long, value_name = "S")]
+    string: String,
+    /// Most edges of a polyedge along which a strip is added.
+    #[arg(long, value_name = "N", default_value_t = 4)]
+    edges: usize,
+    /// Add strips that end in poles too.
+    #[arg(long)]
+    poles: bool,
+    /// Write the table of all of them into this CSV file.
+    #[arg(long, value_name = "FILE.csv")]
+    out: Option<PathBuf>,
+}
+
+/// How many neighbours are listed for each objective.
+const LISTED: usize = 5;
+
+/// Evaluates and ranks.
+pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
+    let config = args.config.load(&[])?;
+    let tokens = parse("--string", &args.string)?;
+    let study = args.config.study(&config)?;
+    let expressed = study.decode(&tokens).expressed;
+    let mut seen = BTreeSet::from([study.topology(&tokens).code]);
+    let mut named = vec![(expressed.to_string(), expressed.clone())];
+    for neighbour in study.neighbours(&expressed, Reach { edges: args.edges, poles: args.poles }) {
+        if seen.insert(study.topology(&neighbour).code) {
+            named.push((neighbour.to_string(), neighbour));
+        }
+    }
+    console.note(&format!("evaluating {} different designs one strip away", named.len() - 1));
+    let comparison = Comparison::of(&study, named);
+    let count = comparison.entries.len() - 1;
+    let feasible = comparison.entries[1..].iter().filter(|e| e.evaluation.violation.is_feasible()).count();
+    println!(
+        "\"{expressed}\" ({}): {count} neighbours, {feasible} of them feasible",
+        comparison.entries[0].id()
+    );
+    let mut won = 0;
+    for (index, objective) in study.objectives.iter().enumerate() {
+        won += usize::from(rank(&comparison, index, objective));
+    }
+    println!("{}", verdict(won, study.objectives.len()));
+    if let Some(path) = &args.out {
+        atomic::write(path, &comparison.table().to_csv()).map_err(CliError::write(path))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn verdict(won: usize, objectives: usize) -> String {
+    match won {
+        0 => "better than all its neighbours in no objective".into(),
+        _ if won == objectives => "better than all its neighbours in every objective".into(),
+        _ => format!("better than all its neighbours in {won} of {objectives} objectives"),
+    }
+}
+
+/// Prints the best feasible neighbours of one objective; true if the given design is better than all of them.
+fn rank(comparison: &Comparison, index: usize, objective: &Metric) -> bool {
+    let value = |entry: usize| comparison.entries[entry].evaluation.objectives.get(index).copied();
+    let own = value(0);
+    let mut others: Vec<(f64, usize)> = (1..comparison.entries.len())
+        .filter(|&entry| comparison.entries[entry].evaluation.violation.is_feasible())
+        .filter_map(|entry| Some((value(entry)?, entry)))
+        .collect();
+    others.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let best = own.is_some_and(|own| others.first().is_none_or(|&(other, _)| own < other));
+    let shown = own.map_or_else(|| "–".into(), significant);
+    println!("\n{}: {shown}{}", objective.column, if best { ", better than all neighbours" } else { "" });
+    for (value, entry) in others.into_iter().take(LISTED) {
+        let entry = &comparison.entries[entry];
+        println!("  {:>12}  {}  {}", significant(value), entry.id(), entry.name);
+    }
+    best
+}
