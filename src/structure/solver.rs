@@ -111,6 +111,14 @@ impl<'m> Solver<'m> {
         }
     }
 
+    /// Factorises the assembled stiffness once more: what everything else is measured against.
+    ///
+    /// # Errors
+    /// [`NotPositive`].
+    pub fn refactorise(&mut self) -> Result<(), NotPositive> {
+        self.factor.factorise(&self.system, &self.matrix)
+    }
+
     fn assemble(&mut self) {
         self.matrix.fill(0.0);
         self.stiffness.clear();
@@ -256,6 +264,41 @@ impl<'m> Solver<'m> {
         if let Some(factor) = &mut self.shifted_factor {
             factor.solve(&self.system, rhs);
         }
+    }
+
+    /// Second order with the factor of K alone, for several columns at once: u ← K⁻¹ (f − Kg(N(u)) u), which contracts
+    /// like 1/λ. `u` comes in as the first-order displacements and goes out as those of second order, when neither N
+    /// nor u changes by more than `tolerance` of its largest. Gives false if `most` steps do not settle it.
+    ///
+    /// Settling does not prove that K + Kg is positive definite: motions that the load does not excite are not seen.
+    pub fn iterate_second_order(&mut self, f: &[f64], u: &mut [f64], tolerance: f64, most: usize) -> bool {
+        let n = self.system.unknowns();
+        let (mut axial, mut next) = (Vec::new(), Vec::new());
+        let mut rhs = vec![0.0; f.len()];
+        for _ in 0..most {
+            for ((rhs, f), u) in rhs.chunks_mut(n).zip(f.chunks(n)).zip(u.chunks(n)) {
+                self.axial_forces(u, &mut axial);
+                self.minus_geometric(&axial, u, rhs);
+                rhs.iter_mut().zip(f).for_each(|(r, f)| *r += f);
+            }
+            self.solve(&mut rhs);
+            let mut settled = true;
+            for (new, old) in rhs.chunks(n).zip(u.chunks(n)) {
+                self.axial_forces(old, &mut axial);
+                self.axial_forces(new, &mut next);
+                let still = |new: &[f64], old: &[f64]| {
+                    let largest = new.iter().fold(0.0f64, |a, v| a.max(v.abs()));
+                    let change = new.iter().zip(old).fold(0.0f64, |a, (n, o)| a.max((n - o).abs()));
+                    change <= tolerance * largest
+                };
+                settled &= still(new, old) && still(&next, &axial);
+            }
+            u.copy_from_slice(&rhs);
+            if settled {
+                return u.iter().all(|v| v.is_finite());
+            }
+        }
+        false
     }
 
     /// Second order, factor by factor: (K + Kg(N)) u = f with N of u, from the first-order N, until N changes by no
