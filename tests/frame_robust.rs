@@ -91,18 +91,20 @@ fn in_equilibrium(case: &Value, result: &FrameResult) -> Result<(), String> {
     // Whole structure: reactions against loads, self weight included, in force.
     let mut sum = [0.0; 3];
     let mut size = 0.0f64;
-    let mut add = |values: [f64; 3]| {
-        for d in 0..3 {
-            sum[d] += values[d];
-            size = size.max(values[d].abs());
-        }
-    };
+    let mut add = |values: [f64; 3]| sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
     for load in case["loads"]["nodal"].as_array().unwrap() {
         add(serde_json::from_value(load["force"].clone()).unwrap());
     }
     add(result.total_reaction);
+    // Reactions may be far larger than what they add up to.
+    for (_, reaction) in &result.reactions {
+        size = reaction.iter().take(3).flatten().fold(size, |a, r| a.max(r.abs()));
+    }
     let weight: f64 = result.member_forces.iter().map(|f| f.load.norm() * f.length).sum();
     add([0.0, 0.0, -weight]);
+    let loads =
+        case["loads"]["nodal"].as_array().unwrap().iter().flat_map(|l| l["force"].as_array().unwrap());
+    size = loads.filter_map(Value::as_f64).fold(size.max(weight), |a, v| a.max(v.abs()));
     if sum.iter().any(|s| s.abs() > 1e-5 * size.max(1e-300)) {
         return Err(format!("out of balance by {sum:?} of {size} ({} nodes)", nodes.len()));
     }
@@ -134,6 +136,7 @@ fn every_model_is_answered_or_its_error_named() {
                 }
                 Err(FrameError::Unstable(_)) => "unstable",
                 Err(FrameError::NotFinite) => "not finite",
+                Err(FrameError::IllConditioned(_)) => "ill-conditioned",
                 Err(FrameError::NoConvergence) => "not converged",
                 Err(error) => panic!("seed {seed}: {error}\n{case}"),
             },
@@ -141,8 +144,11 @@ fn every_model_is_answered_or_its_error_named() {
         *tally.entry(outcome).or_default() += 1;
     }
     println!("{tally:?}");
-    let rare = tally.get("not converged").copied().unwrap_or(0);
-    assert!(rare <= models() / 200, "{tally:?}");
+    let count = |outcome| tally.get(outcome).copied().unwrap_or(0);
+    assert!(
+        count("not converged") <= models() / 200 && count("ill-conditioned") <= models() / 20,
+        "{tally:?}"
+    );
     for outcome in ["answered", "refused", "singular"] {
         assert!(tally.get(outcome).is_some_and(|n| *n > models() / 50), "{outcome} is too rare: {tally:?}");
     }

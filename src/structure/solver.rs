@@ -8,7 +8,7 @@ use super::factor::{Factor, NotPositive};
 use super::mechanism::{self, FreeMotion};
 use super::model::FrameModel;
 use super::section::Section;
-use super::system::{System, TooLarge};
+use super::system::{DOFS, System, TooLarge};
 use nalgebra::Vector3;
 
 /// How many right-hand sides are solved together.
@@ -179,19 +179,50 @@ impl<'m> Solver<'m> {
         self.factor.solve(&self.system, rhs);
     }
 
-    /// First order: K u = f, refined once with the residual of the elements' own end forces.
+    /// First order: K u = f, refined with the residual of the elements' own end forces: once for a sound model, a few
+    /// times more for a badly scaled one.
     pub fn first_order(&mut self, f: &[f64]) -> Vec<f64> {
+        const MOST: usize = 6;
+        const SMALL: f64 = 1e-10;
         let mut u = f.to_vec();
         self.solve(&mut u);
-        let mut residual = f.to_vec();
-        for (u, r) in u.chunks(self.system.unknowns()).zip(residual.chunks_mut(self.system.unknowns())) {
-            self.subtract_forces(u, None, r);
-        }
-        self.solve(&mut residual);
-        for (u, correction) in u.iter_mut().zip(&residual) {
-            *u += correction;
+        let mut residual = Vec::new();
+        for _ in 0..MOST {
+            residual.clear();
+            residual.extend_from_slice(f);
+            self.subtract_forces(&u, None, &mut residual);
+            self.solve(&mut residual);
+            u.iter_mut().zip(&residual).for_each(|(u, correction)| *u += correction);
+            let largest = |v: &[f64]| v.iter().fold(0.0f64, |a, v| a.max(v.abs()));
+            if largest(&residual) <= SMALL * largest(&u) {
+                break;
+            }
         }
         u
+    }
+
+    /// How far the free nodes are from equilibrium: the largest force left over, relative to the largest force on a
+    /// node, and the same for moments; the worse of the two.
+    pub fn imbalance(&self, u: &[f64], axial: Option<&[f64]>, f: &[f64]) -> f64 {
+        let mut left = f.to_vec();
+        self.subtract_forces(u, axial, &mut left);
+        let mut worst = [0.0f64; 2];
+        let mut scale = [0.0f64; 2];
+        for (i, (left, f)) in left.iter().zip(f).enumerate() {
+            let kind = usize::from(i % DOFS > 2);
+            // A reaction is part of what is in balance.
+            scale[kind] = scale[kind].max(f.abs());
+            if self.system.held()[i] {
+                scale[kind] = scale[kind].max(left.abs());
+            } else {
+                worst[kind] = worst[kind].max(left.abs());
+            }
+        }
+        let arm = self.model.axes().iter().fold(0.0f64, |a, axes| a.max(axes.length));
+        let force = scale[0].max(scale[1] / arm);
+        let moment = scale[1].max(scale[0] * arm);
+        let ratio = |left: f64, scale: f64| if left > 0.0 { left / scale } else { 0.0 };
+        ratio(worst[0], force).max(ratio(worst[1], moment))
     }
 
     /// r −= (K + Kg(N)) u, element by element.
