@@ -4,7 +4,7 @@ use super::graph::{Branch, End, Fork, Graph, Slot, plan, stretch};
 use super::layout::Layout;
 use super::triangulation::{Site, distance};
 use crate::domain::Domain;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The vertices of the forks and of their boundary points.
 struct Vertices {
@@ -73,8 +73,7 @@ fn corridor(
         [first.ring[i].site, first.ring[(i + 1) % n].site],
         [second.ring[(j + 1) % m].site, second.ring[j].site],
     ];
-    let mut pairs = stations(branch, ends, needed(graph, b, [f, g]));
-    join_facing(domain, &mut pairs);
+    let pairs = stations(domain, branch, ends, needed(graph, b, [f, g]));
     let mut right: Vec<Site> = std::iter::once(ends[0][0]).chain(pairs.iter().map(|p| p[0])).collect();
     right.push(ends[1][0]);
     // The left side runs backwards.
@@ -116,7 +115,7 @@ fn needed(graph: &Graph, b: usize, [f, g]: [usize; 2]) -> usize {
 }
 
 /// Cross sections where a corner lies on a side, and evenly chosen ones up to the number needed.
-fn stations(branch: &Branch, ends: [[Site; 2]; 2], needed: usize) -> Vec<[Site; 2]> {
+fn stations(domain: &Domain, branch: &Branch, ends: [[Site; 2]; 2], needed: usize) -> Vec<[Site; 2]> {
     let pairs = &branch.pairs;
     let mut chosen: Vec<usize> = Vec::new();
     for side in 0..2 {
@@ -139,11 +138,35 @@ fn stations(branch: &Branch, ends: [[Site; 2]; 2], needed: usize) -> Vec<[Site; 
     }
     chosen.sort_unstable();
     chosen.dedup();
-    if chosen.len() < needed && !pairs.is_empty() {
-        chosen = (1..=needed).map(|k| k * pairs.len() / (needed + 1)).collect();
-        chosen.dedup();
+    let mut sections: Vec<[Site; 2]> = chosen.into_iter().map(|k| pairs[k]).collect();
+    once_each(&mut sections, ends.into_iter().flatten());
+    sections.retain(|p| corner_count(p) > 0);
+    join_facing(domain, &mut sections);
+    if sections.len() < needed && !pairs.is_empty() {
+        // Corners left out here are given their strips later.
+        sections = (1..=needed).map(|k| pairs[k * pairs.len() / (needed + 1)]).collect();
+        once_each(&mut sections, ends.into_iter().flatten());
     }
-    chosen.into_iter().map(|k| pairs[k]).collect()
+    sections
+}
+
+/// Lets every corner end one cross section only, rather one that has corners at both ends; at its other ends the boundary point
+/// is free to move.
+pub(super) fn once_each(pairs: &mut [[Site; 2]], taken: impl Iterator<Item = Site>) {
+    let mut seen: BTreeSet<usize> = taken.filter_map(|s| s.corner).collect();
+    let mut order: Vec<usize> = (0..pairs.len()).collect();
+    order.sort_by_key(|&k| std::cmp::Reverse(corner_count(&pairs[k])));
+    for k in order {
+        for site in &mut pairs[k] {
+            if site.corner.is_some_and(|c| !seen.insert(c)) {
+                site.corner = None;
+            }
+        }
+    }
+}
+
+fn corner_count(pair: &[Site; 2]) -> usize {
+    pair.iter().filter(|s| s.corner.is_some()).count()
 }
 
 /// Makes one oblique cross section of two neighbours, of which one ends in a corner on the right and the other in a corner on the

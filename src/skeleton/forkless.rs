@@ -1,6 +1,6 @@
 //! Domains whose medial axis has no fork: discs, lenses and drops, rings.
 
-use super::forked::spread;
+use super::forked::{once_each, spread};
 use super::graph::{Branch, End, along, stretch};
 use super::layout::Layout;
 use super::triangulation::Site;
@@ -112,8 +112,10 @@ pub(super) fn ring(domain: &Domain, branch: &Branch) -> Option<Layout> {
         chosen.sort_unstable();
     }
     // Once around from the first section, so that both sides can be spread.
-    let mut outer: Vec<Site> = chosen.iter().map(|&k| pairs[k][0]).collect();
-    let mut inner: Vec<Site> = chosen.iter().map(|&k| pairs[k][1]).collect();
+    let mut sections: Vec<[Site; 2]> = chosen.iter().map(|&k| pairs[k]).collect();
+    once_each(&mut sections, std::iter::empty());
+    let mut outer: Vec<Site> = sections.iter().map(|p| p[0]).collect();
+    let mut inner: Vec<Site> = sections.iter().map(|p| p[1]).collect();
     outer.push(outer[0]);
     inner.push(inner[0]);
     inner.reverse();

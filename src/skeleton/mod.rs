@@ -15,6 +15,7 @@ mod layout;
 mod number;
 pub mod picture;
 mod refine;
+mod tidy;
 mod triangulation;
 
 pub use initial::{InitialError, initial};
@@ -59,6 +60,7 @@ impl From<BaseMeshError> for SkeletonError {
 /// A domain that cannot be decomposed, with the reason.
 pub fn initial_mesh(domain: &Domain) -> Result<BaseMesh, SkeletonError> {
     let mut layout = decompose(domain)?;
+    tidy::boundary(&mut layout, domain);
     layout.place_corners(domain);
     layout.fill_loops(domain);
     layout.pad_pinched(domain);

@@ -6,10 +6,9 @@
 //! M w = g is at hand. The start block is random: starting from displacements would miss antisymmetric modes. A block
 //! finds repeated factors as often as they are repeated.
 
+use super::columns::Columns;
 use super::solver::Solver;
 use crate::random;
-use faer::linalg::matmul::matmul;
-use faer::{Accum, MatMut, MatRef, Par};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 /// A buckling mode.
@@ -39,7 +38,13 @@ pub struct Search {
 const DENSE: usize = 150;
 /// Of ν beside the largest |ν|, below which there is no factor but rounding.
 const NOTHING: f64 = 1e-10;
-const RESTARTS: usize = 60;
+const RESTARTS: usize = 40;
+/// Restarts after which the tolerance is eased tenfold, up to [`EASED`]: a stiffness whose digits are used up by its
+/// own spread (bending 1e-11 of axial) cannot give a smaller residual.
+const EASE_EVERY: usize = 6;
+const EASED: f64 = 1e-4;
+/// Share of a squared norm left by orthogonalisation, below which it is done again.
+const CANCELLED: f64 = 1e-3;
 
 /// The first modes, λ ascending, at most `search.modes`; fewer if there are no more positive factors.
 ///
@@ -105,54 +110,6 @@ fn dense(solver: &mut Solver<'_>, axial: &[f64], modes: usize) -> Result<Vec<Mod
     Ok(found)
 }
 
-/// Columns of length `n`, one after the other.
-struct Columns {
-    n: usize,
-    data: Vec<f64>,
-}
-
-impl Columns {
-    fn new(n: usize) -> Self {
-        Self { n, data: Vec::new() }
-    }
-
-    fn count(&self) -> usize {
-        self.data.len() / self.n
-    }
-
-    fn view(&self) -> MatRef<'_, f64> {
-        MatRef::from_column_major_slice(&self.data, self.n, self.count())
-    }
-
-    /// self −= other × c
-    fn subtract(&mut self, other: &Columns, c: &DMatrix<f64>) {
-        let (n, count) = (self.n, self.count());
-        let target = MatMut::from_column_major_slice_mut(&mut self.data, n, count);
-        matmul(target, Accum::Add, other.view(), dense_view(c), -1.0, Par::Seq);
-    }
-
-    /// self × c
-    fn times(&self, c: &DMatrix<f64>) -> Columns {
-        let mut data = vec![0.0; self.n * c.ncols()];
-        let target = MatMut::from_column_major_slice_mut(&mut data, self.n, c.ncols());
-        matmul(target, Accum::Replace, self.view(), dense_view(c), 1.0, Par::Seq);
-        Columns { n: self.n, data }
-    }
-
-    /// selfᵀ × other
-    fn inner(&self, other: &Columns) -> DMatrix<f64> {
-        let mut c = DMatrix::zeros(self.count(), other.count());
-        let (rows, cols) = c.shape();
-        let target = MatMut::from_column_major_slice_mut(c.as_mut_slice(), rows, cols);
-        matmul(target, Accum::Replace, self.view().transpose(), other.view(), 1.0, Par::Seq);
-        c
-    }
-}
-
-fn dense_view(c: &DMatrix<f64>) -> MatRef<'_, f64> {
-    MatRef::from_column_major_slice(c.as_slice(), c.nrows(), c.ncols())
-}
-
 /// The iteration's state: M-orthonormal V, W = M V, T = Vᵀ (−Kg) V.
 struct Lanczos<'a, 'm> {
     solver: &'a mut Solver<'m>,
@@ -191,10 +148,12 @@ impl<'a, 'm> Lanczos<'a, 'm> {
 
     fn run(mut self) -> Result<Vec<Mode>, NoConvergence> {
         let (mut x, mut mx) = self.random_block();
-        for _ in 0..RESTARTS {
+        let asked = self.search.tolerance;
+        for restart in 0..RESTARTS {
+            let eased = asked * 10f64.powi((restart / EASE_EVERY) as i32);
+            self.search.tolerance = eased.min(EASED).max(asked);
             while self.v.count() + x.count() <= self.most {
-                let last = self.extend(x, mx);
-                let (z, g, remainder) = last;
+                let (z, g, remainder) = self.extend(x, mx);
                 let ritz = self.ritz();
                 if self.settled(&ritz, &remainder) {
                     return Ok(self.shapes(&ritz));
@@ -258,9 +217,14 @@ impl<'a, 'm> Lanczos<'a, 'm> {
         self.t = t;
         let mut z = Columns { n: g.n, data: g.data.clone() };
         self.solver.solve(&mut z.data);
+        let before = squares(&z, &g);
         z.subtract(&self.v, &column);
         g.subtract(&self.w, &column);
-        self.orthogonalise(&mut z, &mut g);
+        // Once is enough unless most of the block was cancelled (Daniel, Gragg, Kaufman, Stewart 1976).
+        let kept = squares(&z, &g);
+        if kept.iter().zip(&before).any(|(kept, before)| *kept < CANCELLED * before) {
+            self.orthogonalise(&mut z, &mut g);
+        }
         let remainder = orthonormalise(&mut z, &mut g);
         (z, g, remainder)
     }
@@ -311,6 +275,12 @@ impl<'a, 'm> Lanczos<'a, 'm> {
         self.w = self.w.times(&s);
         self.t = DMatrix::from_diagonal(&DVector::from_column_slice(&ritz.values[..keep]));
     }
+}
+
+/// Squared M-norms of the columns of Z, with G = M Z.
+fn squares(z: &Columns, g: &Columns) -> Vec<f64> {
+    let product = |(z, g): (&[f64], &[f64])| z.iter().zip(g).map(|(z, g)| z * g).sum();
+    z.data.chunks(z.n).zip(g.data.chunks(z.n)).map(product).collect()
 }
 
 /// Makes Z M-orthonormal (G = M Z), dropping what is not independent; Z before = Z after × the matrix returned.

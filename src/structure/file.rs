@@ -282,12 +282,14 @@ pub fn answer(result: &FrameResult) -> serde_json::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// The JSON of a failed analysis: `error` is `singular`, `unstable`, `not finite` or `failed`.
+/// The JSON of a failed analysis: `error` is `singular`, `unstable`, `not finite`, `ill-conditioned` or
+/// `failed`.
 pub fn failure(error: &FrameError) -> serde_json::Value {
     let (kind, motion) = match error {
         FrameError::Singular(motion) => ("singular", Some(motion)),
         FrameError::Unstable(motion) => ("unstable", Some(motion)),
         FrameError::NotFinite => ("not finite", None),
+        FrameError::IllConditioned(_) => ("ill-conditioned", None),
         FrameError::NoConvergence | FrameError::TooLarge(_) => ("failed", None),
     };
     let mut value = serde_json::json!({ "error": kind, "message": error.to_string() });

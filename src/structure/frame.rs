@@ -20,6 +20,9 @@ pub struct FrameAnalysis {
 /// Change of the axial forces, relative to the largest, at which second order has converged.
 const SECOND_ORDER_TOLERANCE: f64 = 1e-11;
 
+/// Out of balance by more than this share of the largest force, an answer is none.
+const BALANCE: f64 = 1e-7;
+
 /// The answer. Lists follow the model's order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameResult {
@@ -53,6 +56,11 @@ pub enum FrameError {
     /// The numbers overflow.
     #[error("the result is not finite: stiffness or loads are too large or too small to compute with")]
     NotFinite,
+    /// Rounding has used up the digits: stiffness or lengths differ by too many orders of magnitude.
+    #[error(
+        "ill-conditioned: the free nodes are out of balance by {0:e} of the largest force; stiffness or lengths differ too much"
+    )]
+    IllConditioned(f64),
     /// No buckling factor was found within the limit of iterations.
     #[error("the buckling iteration did not converge")]
     NoConvergence,
@@ -87,6 +95,7 @@ pub fn frame(model: &FrameModel, analysis: &FrameAnalysis) -> Result<FrameResult
     solver.load_vector(&combination, &loads, &mut f);
     let first = solver.first_order(&f);
     finite(&first)?;
+    balanced(solver.imbalance(&first, None, &f))?;
     let mut axial = Vec::new();
     solver.axial_forces(&first, &mut axial);
     silence(&solver, &first, &mut axial);
@@ -98,6 +107,7 @@ pub fn frame(model: &FrameModel, analysis: &FrameAnalysis) -> Result<FrameResult
             .map_err(|reason| unstable(&mut solver, &axial, reason))?;
         finite(&u)?;
         solver.axial_forces(&u, &mut axial);
+        balanced(solver.imbalance(&u, Some(&axial), &f))?;
         collect(&solver, &u, Some(&axial), &loads, &f)
     } else {
         collect(&solver, &first, None, &loads, &f)
@@ -111,6 +121,10 @@ pub fn frame(model: &FrameModel, analysis: &FrameAnalysis) -> Result<FrameResult
 
 fn finite(u: &[f64]) -> Result<(), FrameError> {
     if u.iter().all(|v| v.is_finite()) { Ok(()) } else { Err(FrameError::NotFinite) }
+}
+
+fn balanced(imbalance: f64) -> Result<(), FrameError> {
+    if imbalance <= BALANCE { Ok(()) } else { Err(FrameError::IllConditioned(imbalance)) }
 }
 
 /// Sets axial forces to zero if all of them are rounding noise of the displacements: no load, no buckling.

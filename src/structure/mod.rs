@@ -5,6 +5,7 @@
 //! ```
 
 pub mod buckling;
+mod columns;
 pub mod element;
 pub mod factor;
 pub mod file;

@@ -8,7 +8,7 @@ use super::factor::{Factor, NotPositive};
 use super::mechanism::{self, FreeMotion};
 use super::model::FrameModel;
 use super::section::Section;
-use super::system::{System, TooLarge};
+use super::system::{DOFS, System, TooLarge};
 use nalgebra::Vector3;
 
 /// How many right-hand sides are solved together.
@@ -111,6 +111,14 @@ impl<'m> Solver<'m> {
         }
     }
 
+    /// Factorises the assembled stiffness once more: what everything else is measured against.
+    ///
+    /// # Errors
+    /// [`NotPositive`].
+    pub fn refactorise(&mut self) -> Result<(), NotPositive> {
+        self.factor.factorise(&self.system, &self.matrix)
+    }
+
     fn assemble(&mut self) {
         self.matrix.fill(0.0);
         self.stiffness.clear();
@@ -171,19 +179,50 @@ impl<'m> Solver<'m> {
         self.factor.solve(&self.system, rhs);
     }
 
-    /// First order: K u = f, refined once with the residual of the elements' own end forces.
+    /// First order: K u = f, refined with the residual of the elements' own end forces: once for a sound model, a few
+    /// times more for a badly scaled one.
     pub fn first_order(&mut self, f: &[f64]) -> Vec<f64> {
+        const MOST: usize = 6;
+        const SMALL: f64 = 1e-10;
         let mut u = f.to_vec();
         self.solve(&mut u);
-        let mut residual = f.to_vec();
-        for (u, r) in u.chunks(self.system.unknowns()).zip(residual.chunks_mut(self.system.unknowns())) {
-            self.subtract_forces(u, None, r);
-        }
-        self.solve(&mut residual);
-        for (u, correction) in u.iter_mut().zip(&residual) {
-            *u += correction;
+        let mut residual = Vec::new();
+        for _ in 0..MOST {
+            residual.clear();
+            residual.extend_from_slice(f);
+            self.subtract_forces(&u, None, &mut residual);
+            self.solve(&mut residual);
+            u.iter_mut().zip(&residual).for_each(|(u, correction)| *u += correction);
+            let largest = |v: &[f64]| v.iter().fold(0.0f64, |a, v| a.max(v.abs()));
+            if largest(&residual) <= SMALL * largest(&u) {
+                break;
+            }
         }
         u
+    }
+
+    /// How far the free nodes are from equilibrium: the largest force left over, relative to the largest force on a
+    /// node, and the same for moments; the worse of the two.
+    pub fn imbalance(&self, u: &[f64], axial: Option<&[f64]>, f: &[f64]) -> f64 {
+        let mut left = f.to_vec();
+        self.subtract_forces(u, axial, &mut left);
+        let mut worst = [0.0f64; 2];
+        let mut scale = [0.0f64; 2];
+        for (i, (left, f)) in left.iter().zip(f).enumerate() {
+            let kind = usize::from(i % DOFS > 2);
+            // A reaction is part of what is in balance.
+            scale[kind] = scale[kind].max(f.abs());
+            if self.system.held()[i] {
+                scale[kind] = scale[kind].max(left.abs());
+            } else {
+                worst[kind] = worst[kind].max(left.abs());
+            }
+        }
+        let arm = self.model.axes().iter().fold(0.0f64, |a, axes| a.max(axes.length));
+        let force = scale[0].max(scale[1] / arm);
+        let moment = scale[1].max(scale[0] * arm);
+        let ratio = |left: f64, scale: f64| if left > 0.0 { left / scale } else { 0.0 };
+        ratio(worst[0], force).max(ratio(worst[1], moment))
     }
 
     /// r −= (K + Kg(N)) u, element by element.
@@ -256,6 +295,41 @@ impl<'m> Solver<'m> {
         if let Some(factor) = &mut self.shifted_factor {
             factor.solve(&self.system, rhs);
         }
+    }
+
+    /// Second order with the factor of K alone, for several columns at once: u ← K⁻¹ (f − Kg(N(u)) u), which contracts
+    /// like 1/λ. `u` comes in as the first-order displacements and goes out as those of second order, when neither N
+    /// nor u changes by more than `tolerance` of its largest. Gives false if `most` steps do not settle it.
+    ///
+    /// Settling does not prove that K + Kg is positive definite: motions that the load does not excite are not seen.
+    pub fn iterate_second_order(&mut self, f: &[f64], u: &mut [f64], tolerance: f64, most: usize) -> bool {
+        let n = self.system.unknowns();
+        let (mut axial, mut next) = (Vec::new(), Vec::new());
+        let mut rhs = vec![0.0; f.len()];
+        for _ in 0..most {
+            for ((rhs, f), u) in rhs.chunks_mut(n).zip(f.chunks(n)).zip(u.chunks(n)) {
+                self.axial_forces(u, &mut axial);
+                self.minus_geometric(&axial, u, rhs);
+                rhs.iter_mut().zip(f).for_each(|(r, f)| *r += f);
+            }
+            self.solve(&mut rhs);
+            let mut settled = true;
+            for (new, old) in rhs.chunks(n).zip(u.chunks(n)) {
+                self.axial_forces(old, &mut axial);
+                self.axial_forces(new, &mut next);
+                let still = |new: &[f64], old: &[f64]| {
+                    let largest = new.iter().fold(0.0f64, |a, v| a.max(v.abs()));
+                    let change = new.iter().zip(old).fold(0.0f64, |a, (n, o)| a.max((n - o).abs()));
+                    change <= tolerance * largest
+                };
+                settled &= still(new, old) && still(&next, &axial);
+            }
+            u.copy_from_slice(&rhs);
+            if settled {
+                return u.iter().all(|v| v.is_finite());
+            }
+        }
+        false
     }
 
     /// Second order, factor by factor: (K + Kg(N)) u = f with N of u, from the first-order N, until N changes by no

@@ -1,7 +1,11 @@
 //! Patterns and models for the tests of the frame solver.
-#![allow(dead_code, reason = "each test file uses some of these")]
+#![allow(dead_code, clippy::unwrap_used, reason = "each test file uses some of these")]
 
+use nalgebra::{Rotation3, Vector3};
 use quadrille::geometry::{Panel, Pattern};
+use quadrille::random;
+use quadrille::structure::model::{FrameParts, LoadCase, Material, Member, NodalLoad, Support, UniformLoad};
+use quadrille::structure::section::Section;
 
 /// A grid of `m` × `n` panels over a plan of `width` × `depth` m, at heights `z(x, y)`, x and y from −1 to 1.
 pub fn grid_shell([m, n]: [u32; 2], [width, depth]: [f64; 2], z: impl Fn(f64, f64) -> f64) -> Pattern {
@@ -123,5 +127,139 @@ pub fn court(around: u32, across: u32) -> Pattern {
         ],
         loop_corners: vec![0..4, 4..4],
         corners,
+    }
+}
+
+/// A braced tower of three to six storeys with random nodes, loads and sections; feet clamped.
+pub fn random_tower(seed: u32) -> FrameParts {
+    let rng = &mut random::stream(4, 4, seed);
+    let storeys = 3 + random::below(rng, 4) as u32;
+    let mut jitter = || 0.3 * (random::unit(rng) - 0.5);
+    let mut nodes = Vec::new();
+    for storey in 0..=storeys {
+        for (x, y) in [(0.0, 0.0), (4.0, 0.0), (4.0, 3.0), (0.0, 3.0)] {
+            nodes.push([x + jitter(), y + jitter(), 3.0 * f64::from(storey) + jitter()]);
+        }
+    }
+    let mut members = Vec::new();
+    let mut join = |a: u32, b: u32, section: u32| {
+        members.push(Member { start: a, end: b, up: [0.3, 0.2, 1.0], section });
+    };
+    for storey in 0..storeys {
+        let (below, above) = (4 * storey, 4 * (storey + 1));
+        for k in 0..4 {
+            join(below + k, above + k, 0);
+            join(above + k, above + (k + 1) % 4, 1);
+        }
+        join(below, above + 1, 1);
+    }
+    let nodal = (4..nodes.len() as u32)
+        .map(|node| {
+            let mut load: [f64; 6] = std::array::from_fn(|_| 4e3 * (random::unit(rng) - 0.5));
+            load[2] -= 2e4;
+            NodalLoad { node, load }
+        })
+        .collect();
+    FrameParts {
+        nodes,
+        members,
+        sections: vec![
+            Section::rectangular_hollow(0.1, 0.16, 0.006).unwrap(),
+            Section::rectangular_hollow(0.08, 0.12, 0.005).unwrap(),
+        ],
+        material: steel(),
+        shear_deformation: seed % 2 == 1,
+        supports: (0..4).map(|node| Support { node, fixed: [true; 6] }).collect(),
+        load_cases: vec![LoadCase { nodal, ..LoadCase::default() }],
+    }
+}
+
+fn steel() -> Material {
+    Material { youngs_modulus: 210e9, shear_modulus: 80.77e9, density: 7850.0, strength: 355e6 }
+}
+
+/// The same model turned about the origin, supports clamped so that they need no turning; with the turn.
+pub fn rotated(parts: &FrameParts, seed: u32) -> (FrameParts, Rotation3<f64>) {
+    let turn = Rotation3::from_euler_angles(0.3 + f64::from(seed), 0.7, -1.1 * f64::from(seed));
+    let turned = |v: [f64; 3]| -> [f64; 3] { (turn * Vector3::from(v)).into() };
+    let mut parts = parts.clone();
+    parts.nodes.iter_mut().for_each(|n| *n = turned(*n));
+    parts.members.iter_mut().for_each(|m| m.up = turned(m.up));
+    for load in &mut parts.load_cases[0].nodal {
+        let [fx, fy, fz, mx, my, mz] = load.load;
+        let (force, moment) = (turned([fx, fy, fz]), turned([mx, my, mz]));
+        load.load = [force[0], force[1], force[2], moment[0], moment[1], moment[2]];
+    }
+    (parts, turn)
+}
+
+/// The same model with nodes and members in another order and members turned round; and where each node went.
+pub fn renumbered(parts: &FrameParts, seed: u32) -> (FrameParts, Vec<usize>) {
+    let rng = &mut random::stream(5, 5, seed);
+    let count = parts.nodes.len();
+    let mut place: Vec<usize> = (0..count).collect();
+    for i in (1..count).rev() {
+        place.swap(i, random::below(rng, i + 1));
+    }
+    let mut other = parts.clone();
+    for (n, &to) in place.iter().enumerate() {
+        other.nodes[to] = parts.nodes[n];
+    }
+    let moved = |n: u32| place[n as usize] as u32;
+    for member in &mut other.members {
+        (member.start, member.end) = (moved(member.end), moved(member.start));
+    }
+    other.members.reverse();
+    other.supports.iter_mut().for_each(|s| s.node = moved(s.node));
+    other.load_cases[0].nodal.iter_mut().for_each(|l| l.node = moved(l.node));
+    (other, place)
+}
+
+/// A straight member of 5 m, box 100 × 180 × 6 mm, in several elements.
+pub struct Bend {
+    /// Number of elements.
+    pub elements: u32,
+}
+
+impl Bend {
+    fn along(&self, direction: [f64; 3], up: [f64; 3], supports: Vec<Support>, case: LoadCase) -> FrameParts {
+        let step = 5.0 / f64::from(self.elements);
+        FrameParts {
+            nodes: (0..=self.elements).map(|i| direction.map(|d| d * step * f64::from(i))).collect(),
+            members: (0..self.elements).map(|i| Member { start: i, end: i + 1, up, section: 0 }).collect(),
+            sections: vec![Section::rectangular_hollow(0.1, 0.18, 0.006).unwrap()],
+            material: steel(),
+            shear_deformation: false,
+            supports,
+            load_cases: vec![case],
+        }
+    }
+
+    /// Along x, clamped at 0, uniform load `q` N/m downwards, up = z.
+    pub fn cantilever(&self, q: f64) -> FrameParts {
+        let uniform = (0..self.elements)
+            .map(|member| UniformLoad { member, force_per_length: [0.0, 0.0, -q] })
+            .collect();
+        let case = LoadCase { uniform, ..LoadCase::default() };
+        self.along([1.0, 0.0, 0.0], [0.0, 0.0, 1.0], vec![Support { node: 0, fixed: [true; 6] }], case)
+    }
+
+    /// Upright, pinned at both ends, 100 kN on top; it buckles about its weak axis.
+    pub fn pinned_column(&self) -> FrameParts {
+        let load = NodalLoad { node: self.elements, load: [0.0, 0.0, -1e5, 0.0, 0.0, 0.0] };
+        let supports = vec![
+            Support { node: 0, fixed: [true, true, true, false, false, true] },
+            Support { node: self.elements, fixed: [true, true, false, false, false, false] },
+        ];
+        let case = LoadCase { nodal: vec![load], ..LoadCase::default() };
+        self.along([0.0, 0.0, 1.0], [1.0, 0.0, 0.0], supports, case)
+    }
+
+    /// Upright, clamped at the foot, `p` N down and `h` N along y on top.
+    pub fn column_with_tip_load(&self, p: f64, h: f64) -> FrameParts {
+        let load = NodalLoad { node: self.elements, load: [0.0, h, -p, 0.0, 0.0, 0.0] };
+        let case = LoadCase { nodal: vec![load], ..LoadCase::default() };
+        let foot = vec![Support { node: 0, fixed: [true; 6] }];
+        self.along([0.0, 0.0, 1.0], [1.0, 0.0, 0.0], foot, case)
     }
 }

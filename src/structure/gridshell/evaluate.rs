@@ -13,7 +13,7 @@ use crate::structure::solver::{Combination, Solver};
 use nalgebra::Vector3;
 
 /// Residual of the buckling mode at which λ is good to about its square.
-const MODE_TOLERANCE: f64 = 1e-5;
+const MODE_TOLERANCE: f64 = 3e-5;
 
 /// The largest values of one combination, and where they are.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,6 +66,8 @@ struct State {
     axial: Vec<f64>,
     metrics: Option<Metrics>,
     mode: Option<Option<Mode>>,
+    /// Proved: the first buckling factor is greater than this.
+    stable_to: f64,
 }
 
 /// The model with everything that is kept between heights.
@@ -94,12 +96,15 @@ impl<'a> Evaluator<'a> {
                 axial: Vec::new(),
                 metrics: None,
                 mode: None,
+                stable_to: 0.0,
             })
             .collect();
         Ok(Self { solver: Solver::new(&model.frame)?, model, params, states, section: None })
     }
 
     /// Statics of all combinations with sections of this height.
+    ///
+    /// In second order what does not settle is unstable; what settles is stable only after [`Evaluator::prove_stable`].
     pub fn statics(&mut self, height: f64) -> Result<(), AnalysisError> {
         let section = Section::of_params(&self.params.section, height)?;
         if self.section == Some(section) {
@@ -108,37 +113,108 @@ impl<'a> Evaluator<'a> {
         self.section = None;
         self.solver.set_sections(&[section])?;
         let n = self.solver.system().unknowns();
-        let mut rhs = Vec::with_capacity(n * self.states.len());
+        let mut f = Vec::with_capacity(n * self.states.len());
         for state in &mut self.states {
             self.solver.member_loads(&state.cases, &mut state.member_loads);
             state.f.resize(n, 0.0);
             self.solver.load_vector(&state.cases, &state.member_loads, &mut state.f);
-            rhs.extend_from_slice(&state.f);
-            (state.metrics, state.mode) = (None, None);
+            f.extend_from_slice(&state.f);
+            (state.metrics, state.mode, state.stable_to) = (None, None, 0.0);
         }
-        self.solver.solve(&mut rhs);
-        for (state, u) in self.states.iter_mut().zip(rhs.chunks(n)) {
-            if u.iter().any(|v| !v.is_finite()) {
-                return Err(AnalysisError::NotFinite("a displacement"));
-            }
-            state.u.clear();
-            state.u.extend_from_slice(u);
+        let mut u = f.clone();
+        self.solver.solve(&mut u);
+        if u.iter().any(|v| !v.is_finite()) {
+            return Err(AnalysisError::NotFinite("a displacement"));
+        }
+        for (state, u) in self.states.iter_mut().zip(u.chunks(n)) {
             self.solver.axial_forces(u, &mut state.first_axial);
             silence(&self.solver, u, &mut state.first_axial);
-            if self.params.order == 2 {
-                let tolerance = self.params.second_order_tolerance;
-                match self.solver.second_order(&state.f, u, tolerance) {
-                    Ok(u) => state.u = u,
-                    Err(_) => {
-                        let combination = state.name.clone();
-                        return Err(unstable(&mut self.solver, &state.first_axial, combination));
-                    }
-                }
-            }
-            self.solver.axial_forces(&state.u, &mut state.axial);
+        }
+        if self.params.order == 2 {
+            self.second_order(&f, &mut u)?;
+        }
+        for (state, u) in self.states.iter_mut().zip(u.chunks(n)) {
+            state.u.clear();
+            state.u.extend_from_slice(u);
+            self.solver.axial_forces(u, &mut state.axial);
         }
         self.section = Some(section);
         Ok(())
+    }
+
+    /// All combinations together with the factor of K; if that does not settle, one by one with factors of K + Kg,
+    /// which always tells.
+    fn second_order(&mut self, f: &[f64], u: &mut [f64]) -> Result<(), AnalysisError> {
+        // Enough for λ > 1.5 at the default tolerance.
+        const MOST: usize = 40;
+        let n = self.solver.system().unknowns();
+        let tolerance = self.params.second_order_tolerance;
+        let first = u.to_vec();
+        if self.solver.iterate_second_order(f, u, tolerance, MOST) {
+            return Ok(());
+        }
+        for (s, state) in self.states.iter().enumerate() {
+            let columns = s * n..(s + 1) * n;
+            match self.solver.second_order(&state.f, &first[columns.clone()], tolerance) {
+                Ok(found) => u[columns].copy_from_slice(&found),
+                Err(_) => return Err(unstable(&mut self.solver, &state.first_axial, state.name.clone())),
+            }
+        }
+        Ok(())
+    }
+
+    /// Makes sure that K + Kg of every combination's second order is positive definite.
+    ///
+    /// Free of charge where the axial forces in question are nearly t times the first-order ones of a combination whose
+    /// first buckling factor is known to be well above t; else a Cholesky factorisation.
+    fn prove_stable(&mut self) -> Result<(), AnalysisError> {
+        if self.params.order != 2 {
+            return Ok(());
+        }
+        for state in &self.states {
+            let known =
+                self.states.iter().any(|other| far_below(&state.axial, &other.first_axial, other.stable_to));
+            if !known && self.solver.factorise_shifted(&state.axial, 1.0).is_err() {
+                return Err(unstable(&mut self.solver, &state.first_axial, state.name.clone()));
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether every requirement on a buckling factor is met, and every combination is stable: K + limit × Kg is
+    /// positive definite if and only if λ > limit. No eigenvalue is computed.
+    pub fn meets_buckling(&mut self) -> Result<bool, AnalysisError> {
+        for required in &self.params.requirements {
+            if required.quantity != Quantity::BucklingFactor {
+                continue;
+            }
+            let met = match (required.min, self.index_of(&required.combination)) {
+                (Some(least), Some(index)) => {
+                    let state = &mut self.states[index];
+                    let met = self.solver.factorise_shifted(&state.first_axial, least).is_ok();
+                    if met {
+                        state.stable_to = state.stable_to.max(least);
+                    }
+                    met
+                }
+                _ => self.requirement(required)?.excess() <= 0.0,
+            };
+            if !met {
+                return Ok(false);
+            }
+        }
+        Ok(self.prove_stable().is_ok())
+    }
+
+    /// The largest share of a limit that is used, of the requirements that statics decide or of all.
+    pub fn used(&mut self, all: bool) -> Result<f64, AnalysisError> {
+        let mut used = 0.0f64;
+        for required in &self.params.requirements {
+            if all || required.quantity != Quantity::BucklingFactor {
+                used = used.max(self.requirement(required)?.used());
+            }
+        }
+        Ok(used)
     }
 
     /// The largest values of a combination.
@@ -207,7 +283,9 @@ impl<'a> Evaluator<'a> {
         let mode = buckling::modes(&mut self.solver, &state.first_axial, search)
             .map_err(|_| AnalysisError::NoConvergence("buckling"))?
             .pop();
-        self.states[index].mode = Some(mode.clone());
+        let state = &mut self.states[index];
+        state.stable_to = mode.as_ref().map_or(f64::INFINITY, |mode| mode.factor);
+        state.mode = Some(mode.clone());
         Ok(mode)
     }
 
@@ -275,6 +353,9 @@ impl<'a> Evaluator<'a> {
     /// All metrics and requirements at this height.
     pub fn response(&mut self, height: f64) -> Result<Response, AnalysisError> {
         self.statics(height)?;
+        let buckling = self.combination_of(Quantity::BucklingFactor);
+        self.mode(buckling)?;
+        self.prove_stable()?;
         let requirements: Result<Vec<_>, _> =
             self.params.requirements.iter().map(|r| self.requirement(r)).collect();
         let deflection = self.combination_of(Quantity::Deflection);
@@ -398,6 +479,19 @@ fn check_finite(r: &Response) -> Result<(), AnalysisError> {
         None => Err(AnalysisError::NotFinite("the buckling factor")),
         Some((_, name)) => Err(AnalysisError::NotFinite(name)),
     }
+}
+
+/// Whether axial forces are within a quarter of t times `first`, where 2 t ≤ `stable_to`.
+fn far_below(axial: &[f64], first: &[f64], stable_to: f64) -> bool {
+    let square: f64 = first.iter().map(|n| n * n).sum();
+    let product: f64 = first.iter().zip(axial).map(|(a, b)| a * b).sum();
+    if stable_to <= 0.0 || square <= 0.0 {
+        return axial.iter().all(|&n| n == 0.0);
+    }
+    let t = product / square;
+    let largest = axial.iter().fold(0.0f64, |a, n| a.max(n.abs()));
+    let off = axial.iter().zip(first).fold(0.0f64, |a, (n, first)| a.max((n - t * first).abs()));
+    t >= 0.0 && off <= 0.25 * largest && 2.0 * t <= stable_to
 }
 
 /// Names what gives way: the first buckling mode under the first-order axial forces.

@@ -1,0 +1,97 @@
+//! Tall thin blocks of vectors, and the three products the eigenvalue iteration spends its time in.
+//!
+//! The blocks are a few columns wide. A general matrix product packs its operands first, which here costs several
+//! times the work itself; these loops read every column of the basis once.
+
+use nalgebra::DMatrix;
+
+/// Rows treated together, so that the narrow operand stays in the first-level cache.
+const STRIP: usize = 1024;
+/// Sums kept side by side in a dot product: fixed, so that the result does not depend on the machine.
+const LANES: usize = 8;
+
+/// Columns of length `n`, one after the other.
+pub struct Columns {
+    /// Length of a column.
+    pub n: usize,
+    /// The columns.
+    pub data: Vec<f64>,
+}
+
+impl Columns {
+    /// No columns yet.
+    pub fn new(n: usize) -> Self {
+        Self { n, data: Vec::new() }
+    }
+
+    /// How many columns.
+    pub fn count(&self) -> usize {
+        self.data.len() / self.n
+    }
+
+    fn column(&self, i: usize) -> &[f64] {
+        &self.data[i * self.n..(i + 1) * self.n]
+    }
+
+    /// self −= other × c
+    pub fn subtract(&mut self, other: &Columns, c: &DMatrix<f64>) {
+        for (j, target) in self.data.chunks_mut(self.n).enumerate() {
+            for (s, strip) in target.chunks_mut(STRIP).enumerate() {
+                for i in 0..other.count() {
+                    let factor = c[(i, j)];
+                    let from = &other.column(i)[s * STRIP..s * STRIP + strip.len()];
+                    for (t, v) in strip.iter_mut().zip(from) {
+                        *t -= factor * v;
+                    }
+                }
+            }
+        }
+    }
+
+    /// self × c
+    pub fn times(&self, c: &DMatrix<f64>) -> Columns {
+        let mut product = Columns { n: self.n, data: vec![0.0; self.n * c.ncols()] };
+        product.subtract(self, &-c);
+        product
+    }
+
+    /// selfᵀ × other
+    pub fn inner(&self, other: &Columns) -> DMatrix<f64> {
+        DMatrix::from_fn(self.count(), other.count(), |i, j| dot(self.column(i), other.column(j)))
+    }
+}
+
+/// A dot product with a fixed order of summation that vectorises.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; LANES];
+    let (a_lanes, b_lanes) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
+    let rest: f64 = a_lanes.remainder().iter().zip(b_lanes.remainder()).map(|(x, y)| x * y).sum();
+    for (x, y) in a_lanes.zip(b_lanes) {
+        for lane in 0..LANES {
+            sums[lane] += x[lane] * y[lane];
+        }
+    }
+    rest + sums.iter().sum::<f64>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn products_are_those_of_matrices() {
+        let n = 2_500;
+        let fill = |count: usize, seed: f64| Columns {
+            n,
+            data: (0..n * count).map(|i| (seed * i as f64).sin()).collect(),
+        };
+        let (v, mut z) = (fill(5, 0.37), fill(2, 0.91));
+        let dense = |c: &Columns| DMatrix::from_column_slice(n, c.count(), &c.data);
+        let (dv, dz) = (dense(&v), dense(&z));
+        let c = v.inner(&z);
+        assert!((&c - dv.transpose() * &dz).amax() < 1e-10);
+        z.subtract(&v, &c);
+        assert!((dense(&z) - (dz - &dv * &c)).amax() < 1e-9);
+        assert!((dense(&v.times(&c)) - dv * c).amax() < 1e-9);
+    }
+}
