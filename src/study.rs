@@ -36,7 +36,8 @@ pub struct Study {
     pub initial: InitialMesh,
     /// What is minimised, in the order of the config.
     pub objectives: Vec<&'static Metric>,
-    rules: Rules,
+    /// By which rules strings grow.
+    pub rules: Rules,
     symmetries: Vec<Symmetry>,
     /// Code of the initial mesh.
     baseline: Code,

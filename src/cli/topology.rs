@@ -2,8 +2,10 @@
 
 use super::CliError;
 use clap::ValueEnum;
+use quadrille::config;
 use quadrille::grammar::{Rules, Tokens};
 use quadrille::mesh::{InitialMesh, base_json};
+use quadrille::study::Study;
 use std::path::{Path, PathBuf};
 
 /// A config, or a bare mesh.
@@ -67,7 +69,8 @@ pub fn parse_string(option: &str, text: &str) -> Result<Tokens, CliError> {
 
 /// The initial mesh and the rules of a config.
 fn from_config(file: &Path) -> Result<(InitialMesh, Rules), CliError> {
-    let config = quadrille::config::load(file, &[])?;
-    let _ = config.topology;
-    Err(CliError::Failed("a config's initial mesh cannot be made yet: use --base".into()))
+    let config = config::load(file, &[])?;
+    let study = Study::new(&config, config::folder_of(file))
+        .map_err(|error| CliError::Input(format!("{}: {error}", file.display())))?;
+    Ok((study.initial, study.rules))
 }
