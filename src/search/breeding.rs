@@ -38,7 +38,29 @@ struct Draft {
     operators: u16,
 }
 
-/// Breeds generation `state.next_generation()`: seeds and random strings first, later children.
+/// The strings of one generation so far.
+#[derive(Clone, Debug)]
+pub(crate) struct Brood {
+    /// In the order in which they were accepted.
+    pub(crate) children: Vec<Child>,
+    /// What happened on the way.
+    pub(crate) breeding: Breeding,
+    /// Slots opened so far: the number of the next random stream.
+    slots: usize,
+    /// Rows that the new children among them will have been given.
+    rows: u32,
+}
+
+impl Default for Brood {
+    fn default() -> Self {
+        let operators = vec![OperatorCount::default(); OPERATORS.len()];
+        let breeding = Breeding { operators, ..Breeding::default() };
+        Self { children: Vec::new(), breeding, slots: 0, rows: 0 }
+    }
+}
+
+/// Adds up to `wanted` strings to the brood of generation `state.next_generation()`: seeds and random strings in the
+/// first generation, children later.
 ///
 /// Rounds: every open slot drafts one string from its own random stream, in slot order; all drafts are identified
 /// (in parallel, nothing is drawn there); then they are judged in slot order. A slot whose drafts were refused
@@ -48,29 +70,22 @@ pub(crate) fn breed<P: Problem>(
     server: &dyn Server,
     settings: (&SearchParams, u64),
     state: &mut State,
+    (brood, wanted): (&mut Brood, usize),
     observer: &mut dyn Observer,
-) -> (Vec<Child>, Breeding) {
+) {
     let (search, seed) = settings;
     let generation = state.next_generation();
     let mut known = std::mem::take(&mut state.known);
-    let mut nursery = Nursery {
-        search,
-        known: &mut known,
-        next_row: state.rows.len() as u32,
-        children: Vec::new(),
-        breeding: Breeding {
-            operators: vec![OperatorCount::default(); OPERATORS.len()],
-            ..Breeding::default()
-        },
-    };
-    if generation == 0 {
+    let (mut slot, end) = (brood.slots, brood.slots + wanted);
+    let mut nursery = Nursery { search, known: &mut known, first_row: state.rows.len() as u32, brood };
+    if generation == 0 && slot == 0 {
         nursery.take_seeds(server, observer);
+        slot = nursery.brood.children.len();
     }
+    nursery.brood.slots = end.max(slot);
     let parents = Parents::of(state, search);
-    let taken = nursery.children.len();
-    let mut open: Vec<Slot> = (taken..search.population)
-        .map(|slot| Slot { rng: stream(seed, generation, slot as u32), refused: 0 })
-        .collect();
+    let mut open: Vec<Slot> =
+        (slot..end).map(|slot| Slot { rng: stream(seed, generation, slot as u32), refused: 0 }).collect();
     let tries = search.duplicates.tries.max(1);
     while !open.is_empty() {
         let drafts: Vec<Draft> = open
@@ -85,30 +100,27 @@ pub(crate) fn breed<P: Problem>(
         let mut still_open = Vec::new();
         for ((mut slot, draft), identity) in open.into_iter().zip(drafts).zip(identities) {
             if nursery.judge(draft, identity, observer) {
-                nursery.breeding.immigrants += u64::from(generation > 0 && slot.refused >= tries);
+                nursery.brood.breeding.immigrants += u64::from(generation > 0 && slot.refused >= tries);
                 continue;
             }
             slot.refused += 1;
             if slot.refused < 2 * tries {
                 still_open.push(slot);
             } else {
-                nursery.breeding.empty += 1;
+                nursery.brood.breeding.empty += 1;
             }
         }
         open = still_open;
     }
-    let (children, breeding) = (nursery.children, nursery.breeding);
     state.known = known;
-    (children, breeding)
 }
 
 /// The generation as it fills.
 struct Nursery<'a> {
     search: &'a SearchParams,
     known: &'a mut Known,
-    next_row: u32,
-    children: Vec<Child>,
-    breeding: Breeding,
+    first_row: u32,
+    brood: &'a mut Brood,
 }
 
 impl Nursery<'_> {
@@ -141,20 +153,22 @@ impl Nursery<'_> {
         identity: Result<Identity, String>,
         observer: &mut dyn Observer,
     ) -> bool {
-        self.breeding.bred += 1;
+        self.brood.breeding.bred += 1;
         self.count(draft.operators, |c| c.used += 1);
         let identity = match identity {
             Ok(identity) => identity,
             Err(message) => {
                 observer.notice(&format!("string {}: {message}", draft.tokens));
-                self.breeding.rejected += 1;
+                self.brood.breeding.rejected += 1;
                 return false;
             }
         };
         match self.known.judge(&identity) {
-            Verdict::Duplicate => self.breeding.duplicates += 1,
-            Verdict::Neighbour => self.breeding.neighbours += 1,
-            _ if self.search.rebreed_rejected && identity.rejected.is_some() => self.breeding.rejected += 1,
+            Verdict::Duplicate => self.brood.breeding.duplicates += 1,
+            Verdict::Neighbour => self.brood.breeding.neighbours += 1,
+            _ if self.search.rebreed_rejected && identity.rejected.is_some() => {
+                self.brood.breeding.rejected += 1
+            }
             _ => {
                 self.accept(draft, identity);
                 return true;
@@ -167,17 +181,22 @@ impl Nursery<'_> {
         let cached = match self.known.judge(&identity) {
             Verdict::Cached(row) => Some(row),
             _ => {
-                self.known.insert(identity.code, &identity.neighbourhood, self.next_row);
-                self.next_row += 1;
+                self.known.insert(identity.code, &identity.neighbourhood, self.first_row + self.brood.rows);
+                self.brood.rows += 1;
                 None
             }
         };
-        self.breeding.cached += u64::from(cached.is_some());
-        self.children.push(Child { tokens: draft.tokens, identity, operators: draft.operators, cached });
+        self.brood.breeding.cached += u64::from(cached.is_some());
+        self.brood.children.push(Child {
+            tokens: draft.tokens,
+            identity,
+            operators: draft.operators,
+            cached,
+        });
     }
 
     fn count(&mut self, operators: u16, change: impl Fn(&mut OperatorCount)) {
-        for (bit, counts) in self.breeding.operators.iter_mut().enumerate() {
+        for (bit, counts) in self.brood.breeding.operators.iter_mut().enumerate() {
             if operators >> bit & 1 == 1 {
                 change(counts);
             }

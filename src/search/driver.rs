@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use super::breeding::{Child, breed};
+use super::breeding::{Brood, Child, breed};
 use super::observer::{Observer, Progress};
 use super::outcome::{Ended, Outcome};
 use super::params::SearchParams;
@@ -44,11 +44,20 @@ pub fn run<P: Problem>(
         if let Some(ended) = limits.reached(&state) {
             return Ok(Outcome::of(state, ended));
         }
-        let (children, breeding) =
-            breed(problem, server, (&settings.search, settings.seed), &mut state, observer);
-        let batch = Batch { children: &children, state: &state, settings, limits: &limits, stop };
-        let (evaluations, ended) = batch.evaluate(server, store.as_deref_mut(), observer)?;
-        state.finish(settings, children, evaluations, breeding);
+        let mut brood = Brood::default();
+        let mut evaluations = Vec::new();
+        let mut ended = None;
+        for _ in 0..=settings.search.refills {
+            let wanted = settings.search.population.saturating_sub(filled(&brood.children, &evaluations));
+            if wanted == 0 || ended.is_some() {
+                break;
+            }
+            let chance = (&settings.search, settings.seed);
+            breed(problem, server, chance, &mut state, (&mut brood, wanted), observer);
+            let batch = Batch { children: &brood.children, state: &state, settings, limits: &limits, stop };
+            (evaluations, ended) = batch.evaluate(evaluations, server, store.as_deref_mut(), observer)?;
+        }
+        state.finish(settings, brood.children, evaluations, brood.breeding);
         if let Some(ended) = ended {
             return Ok(Outcome::of(state, ended));
         }
@@ -59,6 +68,13 @@ pub fn run<P: Problem>(
             observer.generation(row);
         }
     }
+}
+
+/// How many children count, rather than being cheap failures: analysed, feasible, or known before.
+fn filled(children: &[Child], evaluations: &[Option<Evaluation>]) -> usize {
+    let counts = |e: &Evaluation| e.structural || e.violation.is_feasible();
+    let children = children.iter().zip(evaluations);
+    children.filter(|(child, e)| child.cached.is_some() || e.as_ref().is_some_and(counts)).count()
 }
 
 /// The stopping rules.
@@ -117,7 +133,7 @@ fn barren(state: &State) -> usize {
     same.saturating_sub(1)
 }
 
-/// The evaluation of one generation's new designs.
+/// The new designs of one generation so far.
 struct Batch<'a> {
     children: &'a [Child],
     state: &'a State,
@@ -127,20 +143,22 @@ struct Batch<'a> {
 }
 
 impl Batch<'_> {
-    /// An evaluation for every new child, and why the run ends here if it does, with some of them missing.
+    /// An evaluation for every new child, those of the first children being there already; and why the run ends here
+    /// if it does, with some of them missing.
     ///
     /// A budget of structural evaluations is kept exactly and independently of threads: near its end only as many
     /// designs are begun as may still count.
     fn evaluate(
         &self,
+        done: Vec<Option<Evaluation>>,
         server: &dyn Server,
         store: Option<&mut Store>,
         observer: &mut dyn Observer,
     ) -> Result<(Vec<Option<Evaluation>>, Option<Ended>), StoreError> {
         let new: Vec<usize> =
-            (0..self.children.len()).filter(|&k| self.children[k].cached.is_none()).collect();
-        let mut sitting = Sitting::new(self, new.len(), store, observer);
-        let mut structural = self.state.structural();
+            (done.len()..self.children.len()).filter(|&k| self.children[k].cached.is_none()).collect();
+        let mut sitting = Sitting::new(self, done, new.len(), store, observer);
+        let mut structural = sitting.progress.structural;
         let mut begun = 0;
         while begun < new.len() {
             let room = match self.limits.evaluations {
@@ -174,20 +192,25 @@ struct Sitting<'a> {
 impl<'a> Sitting<'a> {
     fn new(
         batch: &'a Batch<'a>,
+        done: Vec<Option<Evaluation>>,
         pending: usize,
         store: Option<&'a mut Store>,
         observer: &'a mut dyn Observer,
     ) -> Self {
         let state = batch.state;
+        let count =
+            |holds: fn(&Evaluation) -> bool| done.iter().flatten().filter(|&e| holds(e)).count() as u64;
         let progress = Progress {
             generation: state.next_generation(),
-            evaluations: state.rows.len() as u64,
-            structural: state.structural(),
-            feasible: state.feasible(),
+            evaluations: state.rows.len() as u64 + count(|_| true),
+            structural: state.structural() + count(|e| e.structural),
+            feasible: state.feasible() + count(|e| e.violation.is_feasible()),
             pending: pending as u64,
             recovered: 0,
         };
-        Self { batch, store, observer, evaluations: vec![None; batch.children.len()], progress }
+        let mut evaluations = done;
+        evaluations.resize(batch.children.len(), None);
+        Self { batch, store, observer, evaluations, progress }
     }
 
     /// Evaluates the children with the numbers `part`; returns why it stopped before all were done.

@@ -55,6 +55,9 @@ pub struct SearchParams {
     /// Share of children that are random strings, without parents; 1 = random search.
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub immigrants: f64,
+    /// How often a generation is filled up again when designs failed before their structure was analysed, so that
+    /// cheap failures do not use it up.
+    pub refills: u32,
     /// Breed a child anew when topology alone rules it out, instead of recording it as a failure.
     pub rebreed_rejected: bool,
     /// Which phenotypes count as the same.
@@ -78,6 +81,7 @@ impl Default for SearchParams {
             mutation: MutationParams::default(),
             rules: RuleParams::default(),
             immigrants: 0.0,
+            refills: 3,
             rebreed_rejected: true,
             duplicates: DuplicateParams::default(),
             archive: ArchiveParams::default(),
@@ -174,7 +178,7 @@ pub struct RuleParams {
 
 impl Default for RuleParams {
     fn default() -> Self {
-        Self { append_strip: 0.2, append_deletion: 0.1, drop_last: 0.1, swap_pair: 0.1 }
+        Self { append_strip: 0.3, append_deletion: 0.2, drop_last: 0.05, swap_pair: 0.15 }
     }
 }
 

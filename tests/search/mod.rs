@@ -3,13 +3,14 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use quadrille::evolve::Violation;
+use quadrille::grammar::random::uniform;
 use quadrille::grammar::{Token, Tokens};
 use quadrille::mesh::canonical::Code;
 use quadrille::random::{Rng, below};
 use quadrille::search::params::TokenBounds;
 use quadrille::search::{
     Evaluation, Identity, Observer, Outcome, Problem, RuleOperator, SearchParams, Settings, Silent, StopFlag,
-    Store, StoreError, ThreadServer, operators, run,
+    Store, StoreError, ThreadServer, run,
 };
 
 /// What happens to the evaluations of one design in ten.
@@ -113,7 +114,7 @@ impl Problem for Counting {
     }
 
     fn random(&self, rng: &mut Rng) -> Tokens {
-        operators::uniform(self.bounds, rng)
+        uniform(rng, self.bounds.min..=self.bounds.max)
     }
 
     fn vary(&self, operator: RuleOperator, expressed: &Tokens, rng: &mut Rng) -> Option<Tokens> {

@@ -2,10 +2,9 @@
 
 use super::append_deletion::append_deletion;
 use super::append_strip::append_strip;
-use super::aware::aware;
 use super::neighbours::{Reach, neighbours};
-use super::random::{structured, uniform};
 use super::{drop_last, swap_pair};
+use crate::grammar::random::{self, Shares};
 use crate::grammar::{Rules, Tokens, Walker};
 use crate::mesh::InitialMesh;
 use crate::random::Rng;
@@ -27,10 +26,11 @@ pub struct Growth<'a> {
 impl Growth<'_> {
     /// A random string.
     pub fn random(&self, kind: Initialiser, rng: &mut Rng) -> Tokens {
+        let (lengths, shares) = (self.bounds.min..=self.bounds.max, Shares::default());
         match kind {
-            Initialiser::Uniform => uniform(self.bounds, rng),
-            Initialiser::Structured => structured(self.bounds, rng),
-            Initialiser::Aware => aware(self.start(), self.bounds, rng),
+            Initialiser::Uniform => random::uniform(rng, lengths),
+            Initialiser::Structured => random::structured(rng, lengths, &shares),
+            Initialiser::Aware => random::aware(rng, lengths, &shares, self.initial, self.rules),
         }
     }
 

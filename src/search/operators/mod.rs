@@ -2,13 +2,11 @@
 
 mod append_deletion;
 mod append_strip;
-mod aware;
 mod crossover;
 mod drop_last;
 mod growth;
 mod insert;
 mod neighbours;
-mod random;
 mod remove;
 mod substitute;
 mod swap_pair;
@@ -25,7 +23,6 @@ pub use drop_last::drop_last;
 pub use growth::Growth;
 pub use insert::insert;
 pub use neighbours::Reach;
-pub use random::{structured, uniform};
 pub use remove::remove;
 pub use substitute::substitute;
 pub use swap_pair::swap_pair;
