@@ -47,7 +47,7 @@ function trend(rows, { key, title, unit, zero, bars }, width) {
 
 function startSpread() {
   const { first, last } = facts.spread;
-  byId("spread-text").innerHTML = `Feasible designs of ${escapeHtml(first.label || "the first")} (${whole(first.rows.length)}) against those of ${escapeHtml(last.label || "the last")} (${whole(last.rows.length)}): each design a tick, the box from the lower to the upper quartile, the thick line the median. Left is better.`;
+  byId("spread-text").innerHTML = `Feasible designs of ${escapeHtml(first.label || "the first")} (${whole(first.rows.length)}) against those of ${escapeHtml(last.label || "the last")} (${whole(last.rows.length)}), and the front of the whole run (${whole(frontDesigns.length)}): each design a tick, the box from the lower to the upper quartile, the thick line the median. Left is better.`;
   const box = byId("spread");
   onWidth(box, () => {
     const width = chartWidth(box, 330);
@@ -55,18 +55,18 @@ function startSpread() {
   });
 }
 function boxes(first, last, i, objective, width) {
-  const rows = [["first", first], ["last", last]].flatMap(([when, sample]) => sample.rows.map((r) => ({ when, v: r[i] })).filter((r) => known(r.v)));
+  const front = { rows: frontDesigns.map((d) => objectives.map((o) => value(d, o))) };
+  const rows = [["first", first], ["last", last], ["front", front]].flatMap(([when, sample]) => sample.rows.map((r) => ({ when, v: r[i] })).filter((r) => known(r.v)));
   if (!rows.length) return null;
-  const out = Plot.plot({
-    width, height: 112, marginLeft: 40, marginRight: 16, marginBottom: 30, ariaLabel: `${objective.label}: first against last generation`,
+  return Plot.plot({
+    width, height: 142, marginLeft: 40, marginRight: 26, marginBottom: 30, ariaLabel: `${objective.label}: first generation, last generation, front`,
     style: { background: "none", fontSize: "12px" },
-    x: { label: null, tickFormat: number, ticks: 5, grid: true, nice: true }, y: { label: null, domain: ["first", "last"], tickSize: 0 },
-    color: { domain: ["first", "last"], range: ["var(--muted)", "var(--accent)"] },
+    x: { label: null, tickFormat: number, ticks: 5, grid: true, nice: true }, y: { label: null, domain: ["first", "last", "front"], tickSize: 0 },
+    color: { domain: ["first", "last", "front"], range: ["var(--muted)", "var(--accent)", "var(--pick)"] },
     marks: [
       Plot.barX(rows, Plot.groupY({ x1: "p25", x2: "p75" }, { x1: "v", x2: "v", y: "when", fill: "when", fillOpacity: 0.22, insetTop: 5, insetBottom: 5 })),
       Plot.tickX(rows, { x: "v", y: "when", stroke: "when", strokeOpacity: 0.5, insetTop: 9, insetBottom: 9 }),
       Plot.tickX(rows, Plot.groupY({ x: "median" }, { x: "v", y: "when", stroke: "when", strokeWidth: 3, insetTop: 4, insetBottom: 4 })),
     ],
   });
-  return out;
 }
