@@ -58,11 +58,16 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
         "\"{expressed}\" ({}): {count} neighbours, {feasible} of them feasible",
         comparison.entries[0].id()
     );
+    if !comparison.entries[0].evaluation.violation.is_feasible() {
+        println!("the string itself is not feasible: {}", comparison.entries[0].evaluation.reason);
+    }
     let mut won = 0;
     for (index, objective) in study.objectives.iter().enumerate() {
         won += usize::from(rank(&comparison, index, objective));
     }
-    println!("{}", verdict(won, study.objectives.len()));
+    if feasible > 0 {
+        println!("\n{}", verdict(won, study.objectives.len()));
+    }
     if let Some(path) = &args.out {
         atomic::write(path, &comparison.table().to_csv()).map_err(CliError::write(path))?;
     }
@@ -86,7 +91,8 @@ fn rank(comparison: &Comparison, index: usize, objective: &Metric) -> bool {
         .filter_map(|entry| Some((value(entry)?, entry)))
         .collect();
     others.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    let best = own.is_some_and(|own| others.first().is_none_or(|&(other, _)| own < other));
+    let own_is_feasible = comparison.entries[0].evaluation.violation.is_feasible();
+    let best = own_is_feasible && own.zip(others.first()).is_some_and(|(own, &(other, _))| own < other);
     let shown = own.map_or_else(|| "–".into(), significant);
     println!("\n{}: {shown}{}", objective.column, if best { ", better than all neighbours" } else { "" });
     for (value, entry) in others.into_iter().take(LISTED) {

@@ -102,6 +102,11 @@ pub fn load(file: &Path, sets: &[String]) -> Result<Config, ConfigError> {
     resolve(&Source::read(file, sets)?, &stem, folder_of(file))
 }
 
+/// Where a config file says something, for errors that only show when it is put to use.
+pub fn place_of(file: &Path, sets: &[String], key: &str) -> Option<Place> {
+    Source::read(file, sets).ok().map(|source| source.place(&KeyPath::of(key)))
+}
+
 /// The folder to which the paths in a config file are relative.
 pub fn folder_of(file: &Path) -> &Path {
     match file.parent() {

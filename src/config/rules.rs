@@ -146,6 +146,17 @@ impl Rules<'_> {
     }
 
     fn structure(&mut self, structure: &StructureParams, loops: usize) {
+        self.structure_keys(structure, loops);
+        // What the solver itself would refuse, where nothing was said about the key yet.
+        for (key, message) in structure.validate() {
+            let key = KeyPath::of(&format!("structure.{key}"));
+            if !self.problems.iter().any(|problem| problem.key.holds(&key) || key.holds(&problem.key)) {
+                self.refuse(key, message);
+            }
+        }
+    }
+
+    fn structure_keys(&mut self, structure: &StructureParams, loops: usize) {
         self.height(structure);
         if structure.elements_per_member == ElementsPerMember::Number(0) {
             self.refuse("structure.elements_per_member", "found 0; allowed: a whole number ≥ 1, or \"auto\"");

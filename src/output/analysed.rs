@@ -4,6 +4,7 @@ use super::table::{Cell, Table};
 use super::vtu::{Field, Grid, vtu};
 use crate::geometry::Pattern;
 use crate::geometry::metrics::{edge_lengths, panel_area, panel_curvature, panel_skewness};
+use crate::search::round_significant;
 use crate::structure::forces::{Resultants, Utilisation};
 use crate::structure::gridshell::{CombinationResult, Detailed};
 
@@ -66,13 +67,13 @@ impl Analysed<'_> {
         for combination in self.combinations() {
             let reactions = reactions_by_node(combination, table.rows.len());
             for ((row, moved), held) in table.rows.iter_mut().zip(&combination.displacements).zip(reactions) {
-                row.extend(moved.map(Cell::from));
-                row.extend(held.map(Cell::from));
+                row.extend(moved.map(result));
+                row.extend(held.map(|force| force.map_or(Cell::Empty, result)));
             }
         }
         if let Some(mode) = mode {
             for (row, shape) in table.rows.iter_mut().zip(&mode.shape) {
-                row.extend(shape.map(Cell::from));
+                row.extend(shape.map(result));
             }
         }
         table
@@ -117,12 +118,12 @@ impl Analysed<'_> {
             cells.extend(nodes);
             cells.push(lengths[m].into());
             cells.push(self.results.map_or(Cell::Empty, |results| results.model.counts[m].into()));
-            cells.push(governing.map(|c| self.utilisation(&c.member_utilisation[m])).into());
+            cells.push(governing.map_or(Cell::Empty, |c| result(self.utilisation(&c.member_utilisation[m]))));
             for combination in self.combinations() {
                 let forces = &combination.member_forces[m];
-                cells.extend([forces.start, forces.end].into_iter().flat_map(resultants).map(Cell::from));
+                cells.extend([forces.start, forces.end].into_iter().flat_map(resultants).map(result));
                 let Utilisation { ends, inner, von_mises } = combination.member_utilisation[m];
-                cells.extend([ends, inner, von_mises].map(Cell::from));
+                cells.extend([ends, inner, von_mises].map(result));
             }
             table.rows.push(cells);
         }
@@ -172,7 +173,7 @@ impl Analysed<'_> {
             fields.push(NamedField { name: "utilisation".into(), components: 1, values });
         }
         for combination in self.combinations() {
-            fields.extend(member_fields(combination));
+            fields.extend(member_fields(combination).map(NamedField::rounded));
         }
         let displacements = self.displacements(self.nodes().len());
         vtu(&Grid {
@@ -197,7 +198,7 @@ impl Analysed<'_> {
             components: 3,
             values: translations(&mode.shape),
         });
-        by_combination.chain(mode).collect()
+        by_combination.chain(mode).map(NamedField::rounded).collect()
     }
 }
 
@@ -223,6 +224,11 @@ impl PanelShapes {
     }
 }
 
+/// A result in 10 significant digits: more are noise, and twice the size.
+fn result(value: f64) -> Cell {
+    Cell::Number(round_significant(value))
+}
+
 struct NamedField {
     name: String,
     components: usize,
@@ -230,6 +236,11 @@ struct NamedField {
 }
 
 impl NamedField {
+    fn rounded(mut self) -> Self {
+        self.values.iter_mut().for_each(|value| *value = round_significant(*value));
+        self
+    }
+
     fn field(&self) -> Field<'_> {
         Field { name: &self.name, components: self.components, values: &self.values }
     }
