@@ -1,6 +1,7 @@
 //! `quadrille decode`: what a string means.
 
 use super::CliError;
+use super::stdout::print_result;
 use super::topology::{TopologyArgs, parse_string};
 use clap::ValueEnum;
 use quadrille::grammar;
@@ -42,13 +43,12 @@ pub fn run(args: &Args) -> Result<ExitCode, CliError> {
     let (initial, rules) = args.topology.load()?;
     let decoded = grammar::decode(&initial, &string, rules);
     let reading = Reading { string: &string, decoded: &decoded };
-    match args.format {
-        Format::Text => print!("{}", coarse::text(reading)),
-        Format::Json => {
-            println!("{}", coarse::json(reading).map_err(|error| CliError::Failed(error.to_string()))?);
-        }
-        Format::Obj => print!("{}", coarse::obj(reading)),
-        Format::Svg => print!("{}", coarse::svg(reading)),
-    }
+    let text = match args.format {
+        Format::Text => coarse::text(reading),
+        Format::Json => coarse::json(reading).map_err(|error| CliError::Failed(error.to_string()))? + "\n",
+        Format::Obj => coarse::obj(reading),
+        Format::Svg => coarse::svg(reading),
+    };
+    print_result(&text)?;
     Ok(ExitCode::SUCCESS)
 }

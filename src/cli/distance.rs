@@ -1,6 +1,7 @@
 //! `quadrille distance`: how far apart two strings are.
 
 use super::CliError;
+use super::stdout::print_result;
 use super::topology::{TopologyArgs, parse_string};
 use clap::ValueEnum;
 use quadrille::grammar::{self, Tokens};
@@ -72,26 +73,23 @@ pub fn run(args: &Args) -> Result<ExitCode, CliError> {
         levenshtein: a.levenshtein(&b),
         hamming: a.hamming(&b),
     };
-    match args.format {
-        Format::Text => print_text(&answer),
-        Format::Json => println!(
-            "{}",
-            serde_json::to_string(&answer).map_err(|error| CliError::Failed(error.to_string()))?
-        ),
-    }
+    let text = match args.format {
+        Format::Text => told(&answer),
+        Format::Json => {
+            serde_json::to_string(&answer).map_err(|error| CliError::Failed(error.to_string()))? + "\n"
+        }
+    };
+    print_result(&text)?;
     Ok(ExitCode::SUCCESS)
 }
 
-fn print_text(answer: &Answer) {
-    match (answer.topological, answer.more_than) {
-        (Some(0), _) => println!("topological  0 (the same design)"),
-        (Some(d), _) => println!("topological  {d} (strips to delete until both are the same)"),
-        (None, Some(max)) => println!("topological  more than {max}"),
-        (None, None) => println!("topological  not comparable (other topology of the surface)"),
-    }
-    println!("Levenshtein  {}", answer.levenshtein);
-    match answer.hamming {
-        Some(d) => println!("Hamming      {d}"),
-        None => println!("Hamming      none (the strings differ in length)"),
-    }
+fn told(answer: &Answer) -> String {
+    let topological = match (answer.topological, answer.more_than) {
+        (Some(0), _) => "0 (the same design)".into(),
+        (Some(d), _) => format!("{d} (strips to delete until both are the same)"),
+        (None, Some(max)) => format!("more than {max}"),
+        (None, None) => "not comparable (other topology of the surface)".into(),
+    };
+    let hamming = answer.hamming.map_or("none (the strings differ in length)".into(), |d| d.to_string());
+    format!("topological  {topological}\nLevenshtein  {}\nHamming      {hamming}\n", answer.levenshtein)
 }

@@ -23,6 +23,7 @@ mod progress;
 mod report;
 mod run;
 mod skeleton;
+mod stdout;
 mod topology;
 mod verify;
 

@@ -9,7 +9,7 @@ use crate::random::{Rng, below, chance, unit};
 
 use super::rules::Rules;
 use super::tokens::{Token, Tokens};
-use super::walker::{Effect, Walker};
+use super::walker::Walker;
 
 /// How often what is drawn.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -215,30 +215,10 @@ fn without_pair(rng: &mut Rng, shares: &Shares) -> Token {
     if chance(rng, shares.deletion) { Token::Delete } else { step(rng, shares) }
 }
 
-/// The share of a string's `A` tokens that belong to an applied pair, and of its `D` tokens that are applied, as
-/// (applied, all) counts: how well an initialiser does.
-pub fn applied(initial: &InitialMesh, tokens: &Tokens, rules: Rules) -> [(usize, usize); 2] {
-    let mut walker = Walker::new(initial, rules);
-    let mut counts = [(0, 0); 2];
-    for &token in tokens.iter() {
-        match (token, walker.apply(token)) {
-            (Token::Delete, effect) => {
-                counts[1].0 += usize::from(effect.is_applied());
-                counts[1].1 += 1;
-            }
-            (token, effect) if token.is_addition() => {
-                counts[0].0 += if matches!(effect, Effect::Added(_)) { 2 } else { 0 };
-                counts[0].1 += 1;
-            }
-            _ => {}
-        }
-    }
-    counts
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::grammar::Effect;
     use crate::mesh::BaseMesh;
     use crate::random::stream;
 
@@ -250,6 +230,26 @@ mod tests {
             ..BaseMesh::default()
         };
         InitialMesh::from_base(&base).unwrap()
+    }
+
+    /// How many of a string's `A` tokens belong to an applied pair, and of its `D` tokens are applied: (applied, all).
+    fn applied(initial: &InitialMesh, tokens: &Tokens, rules: Rules) -> [(usize, usize); 2] {
+        let mut walker = Walker::new(initial, rules);
+        let mut counts = [(0, 0); 2];
+        for &token in tokens.iter() {
+            match (token, walker.apply(token)) {
+                (Token::Delete, effect) => {
+                    counts[1].0 += usize::from(effect.is_applied());
+                    counts[1].1 += 1;
+                }
+                (token, effect) if token.is_addition() => {
+                    counts[0].0 += if matches!(effect, Effect::Added(_)) { 2 } else { 0 };
+                    counts[0].1 += 1;
+                }
+                _ => {}
+            }
+        }
+        counts
     }
 
     #[test]
