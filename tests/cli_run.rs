@@ -104,7 +104,7 @@ fn threads_and_interruption_change_no_byte() {
     assert!(run(temporary.path(), "one", &["--threads", "1"]).status.success());
     assert!(run(temporary.path(), "two", &["--threads", "2"]).status.success());
     // Ended early by a limit, then resumed with the limit raised.
-    let short = ["--set", "search.generations=1"];
+    let short = ["--set", "search.generations=2"];
     assert!(run(temporary.path(), "resumed", &short).status.success());
     assert!(run(temporary.path(), "resumed", &["--resume"]).status.success());
     for table in TABLES {
