@@ -24,13 +24,18 @@ fn random_string(rng: &mut Rng, longest: usize) -> Tokens {
     (0..length).map(|_| Token::ALL[below(rng, Token::ALL.len())]).collect()
 }
 
+/// Poles and closed strips as often as it takes to meet them all, whatever a search starts with.
+fn shares() -> Shares {
+    Shares { pole: 0.15, closed: 0.15, ..Shares::default() }
+}
+
 /// Meshes of the given bases, from structured strings.
 fn meshes(seed: u64, names: &[&str], count: u32, longest: usize) -> Vec<QuadMesh> {
     let of_base = |(k, name): (usize, &&str)| {
         let initial = named(name);
         let mesh = move |i| {
             let mut rng = stream(seed, k as u32, i);
-            decode(&initial, &structured(&mut rng, 0..=longest, &Shares::default()), Rules::Plain).mesh
+            decode(&initial, &structured(&mut rng, 0..=longest, &shares()), Rules::Plain).mesh
         };
         (0..count).map(mesh)
     };
@@ -77,7 +82,7 @@ fn every_string_is_a_valid_mesh_after_every_token() {
         }
         for i in 0..150 {
             let mut rng = stream(2, k as u32, i);
-            let tokens = structured(&mut rng, 0..=120, &Shares::default());
+            let tokens = structured(&mut rng, 0..=120, &shares());
             check_string(initial, &tokens, Rules::Plain);
         }
     }
@@ -109,7 +114,7 @@ fn deleting_an_added_strip_gives_the_mesh_back() {
         for i in 0..150 {
             let mut rng = stream(4, k as u32, i);
             let mut walker = Walker::new(initial, Rules::Plain);
-            for &token in structured(&mut rng, 0..=60, &Shares::default()).iter() {
+            for &token in structured(&mut rng, 0..=60, &shares()).iter() {
                 let before = walker.mesh().clone();
                 if let Effect::Added(strip) = walker.apply(token) {
                     added += 1;
@@ -120,7 +125,7 @@ fn deleting_an_added_strip_gives_the_mesh_back() {
             }
         }
     }
-    assert!(added > 2_000, "only {added} strips were added");
+    assert!(added > 1_500, "only {added} strips were added");
 }
 
 #[test]
@@ -245,7 +250,7 @@ fn mirrored_meshes_are_the_same_only_with_mirror() {
         assert_eq!(code(&isomorphism::mirrored(&image), true), code(&mesh, true));
         chiral += usize::from(strict.code(&mesh) != strict.code(&image));
     }
-    assert!(chiral > 20, "only {chiral} chiral meshes");
+    assert!(chiral > 10, "only {chiral} chiral meshes");
 }
 
 #[test]
@@ -260,7 +265,7 @@ fn symmetric_designs_share_a_canonical_mesh() {
         assert_eq!(one, other);
         different += usize::from(canonical_mesh(&mesh) != canonical_mesh(&image));
     }
-    assert!(different > 30, "only {different} designs had another mirror image");
+    assert!(different > 20, "only {different} designs had another mirror image");
 }
 
 #[test]
