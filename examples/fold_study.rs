@@ -159,7 +159,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn site(name: &str) -> Result<(InitialMesh, Domain, Arc<dyn Surface>), Box<dyn Error>> {
+/// Where strings are developed.
+type Site = (InitialMesh, Domain, Arc<dyn Surface>);
+
+fn site(name: &str) -> Result<Site, Box<dyn Error>> {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let (domain, surface, base) = match name {
         "great_court" => {

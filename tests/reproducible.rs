@@ -2,6 +2,7 @@
 //!
 //! `results/ci/*.csv` was written by `cargo run --release -- run configs/ci.toml --out results/ci --force`. The same
 //! program, CPU and seed give the same bytes for any number of threads; other CPUs the same strings and numbers to 1e-6.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use assert_cmd::Command;
 use std::fs;
