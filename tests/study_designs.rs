@@ -1,0 +1,74 @@
+//! GEOMETRY §0 and §2 on the Great Court: a design is a function of its code, and lies where it must.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use quadrille::config;
+use quadrille::random::stream;
+use quadrille::search::Problem;
+use quadrille::study::{Effort, Study};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+fn great_court() -> Study {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("configs/great_court.toml");
+    let sets = ["pattern.panels=500", "search.tokens.max=12"].map(str::to_owned);
+    let config = config::load(&file, &sets).unwrap();
+    Study::new(&config, config::folder_of(&file)).unwrap()
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
+}
+
+#[test]
+fn different_strings_of_one_code_give_the_same_bytes() {
+    let study = great_court();
+    let mut first = BTreeMap::new();
+    let (mut pairs, mut developed) = (0, 0);
+    for k in 0..3_000 {
+        let tokens = study.random(&mut stream(11, 0, k));
+        let decoded = study.decode(&tokens);
+        let topology = study.topology(&tokens);
+        let (other, mesh) =
+            first.entry(topology.code).or_insert((decoded.expressed.clone(), topology.clone()));
+        if *other == decoded.expressed {
+            continue;
+        }
+        pairs += 1;
+        assert_eq!(*mesh, topology, "{other} and {}", decoded.expressed);
+        if pairs % 40 == 0 {
+            let [a, b] = [mesh.clone(), topology].map(|t| study.evaluate_topology(t, Effort::Pattern));
+            developed += usize::from(a.metrics.iter().any(Option::is_some));
+            assert_eq!(a, b);
+        }
+    }
+    assert!(pairs >= 400 && developed >= 2, "{pairs} pairs, {developed} developed");
+}
+
+#[test]
+fn boundary_on_its_curves_inside_on_the_surface_corners_sharp() {
+    let study = great_court();
+    let mut seen = 0;
+    for k in 0..200 {
+        let topology = study.topology(&study.random(&mut stream(12, 0, k)));
+        let Ok(design) = study.develop(topology, Effort::Pattern) else { continue };
+        let at = |v: u32| design.pattern.positions[v as usize];
+        for (curve, vertices) in study.domain.loops.iter().zip(&design.pattern.loops) {
+            for &v in vertices {
+                assert!(distance(at(v), curve.closest_point(at(v))) < 1e-6, "vertex {v} is off its curve");
+            }
+        }
+        for &p in &design.pattern.positions {
+            assert!(distance(p, study.surface.project(p)) < 1e-6, "{p:?} is off the roof");
+        }
+        let corners: Vec<[f64; 3]> = design.pattern.corners.iter().map(|&v| at(v)).collect();
+        assert_eq!(corners.len(), 4);
+        for (corner, &s) in corners.iter().zip(study.domain.loops[0].corners()) {
+            assert!(
+                distance(*corner, study.domain.loops[0].point(s)) < 1e-9,
+                "corner {corner:?} is not sharp"
+            );
+        }
+        seen += 1;
+    }
+    assert!(seen >= 20, "only {seen} designs were developed");
+}
