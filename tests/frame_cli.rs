@@ -1,0 +1,92 @@
+//! `quadrille frame` from outside: what it prints, and how it says no.
+#![allow(clippy::unwrap_used, reason = "a test without its input has failed")]
+
+use assert_cmd::Command;
+use serde_json::{Value, json};
+use std::path::PathBuf;
+
+fn case(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data/frames").join(name)
+}
+
+fn frame(args: &[&str]) -> (i32, String, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_quadrille")).arg("frame").args(args).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+}
+
+/// Runs a changed copy of a small case.
+fn changed(change: impl Fn(&mut Value)) -> (i32, String, String) {
+    let text = std::fs::read_to_string(case("portal_fixed.json")).unwrap();
+    let mut model: Value = serde_json::from_str(&text).unwrap();
+    change(&mut model);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("model.json");
+    std::fs::write(&path, model.to_string()).unwrap();
+    frame(&[path.to_str().unwrap(), "--format", "json"])
+}
+
+#[test]
+fn json_has_every_node_and_member() {
+    let path = case("space_frame_2storey.json");
+    let (code, out, err) = frame(&[path.to_str().unwrap(), "--format", "json"]);
+    assert_eq!((code, err.as_str()), (0, ""));
+    let result: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(result["displacements"].as_array().unwrap().len(), 12);
+    assert_eq!(result["member_forces"].as_array().unwrap().len(), 34);
+    assert_eq!(result["buckling_factors"].as_array().unwrap().len(), 3);
+}
+
+#[test]
+fn text_is_a_summary() {
+    let path = case("space_frame_2storey.json");
+    let (code, out, _) = frame(&[path.to_str().unwrap()]);
+    assert_eq!(code, 0);
+    for words in ["largest displacement", "utilisation", "buckling factors", "80.01"] {
+        assert!(out.contains(words), "{words:?} is not in\n{out}");
+    }
+}
+
+#[test]
+fn a_mechanism_is_json_with_node_and_direction_and_exit_1() {
+    let path = case("edge_singular_rigid_body.json");
+    let (code, out, err) = frame(&[path.to_str().unwrap(), "--format", "json"]);
+    assert_eq!(code, 1);
+    let answer: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(answer["error"], "singular");
+    assert!(answer["node"].is_u64() && answer["direction"].is_string());
+    assert!(err.contains("moves freely"), "{err}");
+    let path = case("edge_order2_beyond_critical.json");
+    let (code, out, _) = frame(&[path.to_str().unwrap(), "--format", "json"]);
+    let answer: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((code, &answer["error"], &answer["node"]), (1, &json!("unstable"), &json!(6)));
+}
+
+#[test]
+fn wrong_input_says_what_and_where_with_exit_2() {
+    type Change = fn(&mut Value);
+    let wrong: [(Change, &str); 9] = [
+        (|m| drop(m.as_object_mut().unwrap().remove("material")), "material"),
+        (|m| m["nodes"][1][2] = json!("high"), "nodes[1][2]"),
+        (|m| m["members"][0]["end"] = json!(77), "members[0].end = 77"),
+        (|m| m["nodes"][1] = m["nodes"][0].clone(), "its length is 0"),
+        (|m| m["nodes"].as_array_mut().unwrap().push(json!([9, 9, 9])), "belongs to no member"),
+        (
+            |m| {
+                let first = m["members"][0].clone();
+                m["members"].as_array_mut().unwrap().push(first);
+            },
+            "joins the same nodes",
+        ),
+        (|m| m["analysis"]["order"] = json!(3), "analysis.order = 3"),
+        (|m| m["material"]["E"] = json!(-1.0), "material.E"),
+        (|m| m["members"][1]["up"] = json!([0, 0, 0]), "members[1].up"),
+    ];
+    for (change, expected) in wrong {
+        let (code, out, err) = changed(change);
+        assert_eq!((code, out.as_str()), (2, ""), "{expected}: {err}");
+        assert!(err.contains("model.json") && err.contains(expected), "{expected:?} is not in {err}");
+    }
+    let (code, _, err) = frame(&["no_such_file.json"]);
+    assert!(code == 2 && err.contains("no_such_file.json"), "{err}");
+}
