@@ -22,7 +22,7 @@ fn params() -> PatternParams {
 fn random_string(initial: &InitialMesh, index: u32) -> Tokens {
     let bounds = TokenBounds { min: 6, max: 20 };
     let growth = Growth { initial, rules: Rules::Domain, bounds };
-    let kind = if index % 2 == 0 { Initialiser::Structured } else { Initialiser::Aware };
+    let kind = if index.is_multiple_of(2) { Initialiser::Structured } else { Initialiser::Aware };
     growth.random(kind, &mut stream(11, 0, index))
 }
 
