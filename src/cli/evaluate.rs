@@ -2,6 +2,7 @@
 
 use super::compare::Comparison;
 use super::config_args::ConfigArgs;
+use super::deviations::Deviations;
 use super::{CliError, Console};
 use quadrille::grammar::Tokens;
 use quadrille::output::atomic;
@@ -13,7 +14,8 @@ use std::process::ExitCode;
 /// Decode and evaluate given strings: a table of all metrics, absolute and normalised by the largest.
 ///
 /// Every number is computed even where a limit is exceeded. Designs that no other of these dominates are marked with
-/// `*`. With --out, tables (evaluation.csv, normalised.csv) and the files of every design are written too.
+/// `*`. Where there is no surface, the distances between the forms follow. With --out, tables (evaluation.csv,
+/// normalised.csv, deviations.csv) and the files of every design are written too.
 #[derive(clap::Args)]
 pub struct Args {
     #[command(flatten)]
@@ -42,8 +44,17 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     let study = args.config.study(&config)?;
     let comparison = Comparison::of(&study, named);
     print!("{}", comparison.to_text());
+    let deviations = Deviations::of(&study, &comparison);
+    if let Some(deviations) = &deviations {
+        print!("{}", deviations.to_text());
+    }
     if let Some(folder) = &args.out {
         write(folder, &study, &config, &comparison, console)?;
+        if let Some(deviations) = &deviations {
+            let path = folder.join("deviations.csv");
+            let table = deviations.table(&comparison);
+            atomic::write(&path, &table.to_csv()).map_err(CliError::write(&path))?;
+        }
     }
     Ok(ExitCode::SUCCESS)
 }

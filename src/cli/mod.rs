@@ -9,6 +9,7 @@ mod completions;
 mod config_args;
 mod console;
 mod decode;
+mod deviations;
 mod distance;
 mod error;
 mod evaluate;

@@ -14,6 +14,7 @@ pub mod corners;
 pub mod dense;
 pub mod density;
 mod develop;
+pub mod deviation;
 pub mod force_density;
 pub mod laplacian;
 pub mod limits;

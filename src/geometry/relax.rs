@@ -1,4 +1,5 @@
-//! Relaxing a dense pattern: guarded Jacobi smoothing on its constraints (GEOMETRY §2.4).
+//! Relaxing a dense pattern: guarded Jacobi smoothing on its constraints (GEOMETRY §2.4). Boundary vertices slide along their
+//! curves on a surface; on a free surface they stay where placing put them.
 
 use super::boundary::BoundaryLoop;
 use super::params::{RelaxKind, RelaxParams};
@@ -89,7 +90,8 @@ impl Mesh {
     }
 }
 
-/// Runs all sweeps on a placed mesh. Corners stay, boundary vertices stay on their curves, the others on the surface.
+/// Runs all sweeps on a placed mesh. Corners stay, boundary vertices stay on their curves, the others on the surface; on a free
+/// surface all boundary vertices stay.
 ///
 /// With [`RelaxKind::ForceDensity`] the caller solves directly; no sweep is run here.
 pub fn relax(placed: &mut Placed, mesh: &Mesh, domain: &Domain, surface: &dyn Surface, params: &RelaxParams) {
@@ -143,14 +145,19 @@ impl<'a> Sweep<'a> {
         damping: f64,
     ) -> Self {
         let n = placed.positions.len();
-        let sliders: Vec<Slider> =
-            mesh.loops.iter().enumerate().flat_map(|(label, held)| sliders_of(held, label)).collect();
+        // A free form is held by its whole boundary: vertices that may slide along it bunch up where the net pulls them.
+        let is_free = surface.kind() == SurfaceKind::Free;
+        let sliders: Vec<Slider> = if is_free {
+            Vec::new()
+        } else {
+            mesh.loops.iter().enumerate().flat_map(|(label, held)| sliders_of(held, label)).collect()
+        };
         let mut slider_of = vec![u32::MAX; n];
         for (i, slider) in sliders.iter().enumerate() {
             slider_of[slider.vertex as usize] = i as u32;
         }
         Self {
-            is_free: surface.kind() == SurfaceKind::Free,
+            is_free,
             sums: vec![[0.0; 4]; n],
             steps: vec![[0.0; 3]; n],
             slides: vec![0.0; sliders.len()],

@@ -1,6 +1,7 @@
 //! First positions of the dense mesh, by direct linear solves (GEOMETRY §2.1).
 
 mod annulus;
+mod hubs;
 mod polar;
 
 use super::boundary::BoundaryLoop;
@@ -81,7 +82,8 @@ fn in_plan(domain: &Domain, dense: &Dense, edges: &Edges, loops: &[BoundaryLoop]
     if let Some(chart) = annulus::chart(domain) {
         return annulus::place(domain, &chart, &dense.panels, edges, loops, dense.vertex_count);
     }
-    let along: Vec<Vec<f64>> = loops.iter().map(|l| l.even(0.0)).collect();
+    let phases = hubs::phases(domain, &edges.list, loops, dense.vertex_count)?;
+    let along: Vec<Vec<f64>> = loops.iter().zip(phases).map(|(l, phase)| l.even(phase)).collect();
     let mut is_fixed = vec![false; dense.vertex_count];
     let mut x = vec![0.0; dense.vertex_count];
     let mut y = x.clone();
