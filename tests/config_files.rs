@@ -34,6 +34,15 @@ fn great_court_sized_differs_in_height_and_objectives_only() {
 }
 
 #[test]
+fn configs_to_compare_differ_in_search_only() {
+    for other in ["compare/random.toml", "compare/token_wise.toml"] {
+        let differing = config::differences(&load("compare/default.toml"), &load(other));
+        assert!(!differing.is_empty());
+        assert!(differing.iter().all(|key| key == "run.name" || key.starts_with("search.")), "{differing:?}");
+    }
+}
+
+#[test]
 fn every_shipped_config_loads_and_survives_being_written_back() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("configs");
     let mut count = 0;

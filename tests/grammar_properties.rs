@@ -6,7 +6,7 @@ mod grammar_cases;
 mod oracle;
 
 use grammar_cases::{bases, named};
-use oracle::check_string;
+use oracle::{check_mesh, check_string};
 use quadrille::grammar::random::{Shares, structured};
 use quadrille::grammar::{Effect, Rules, Token, Tokens, Walker, decode};
 use quadrille::mesh::code::{code, rooted_code};
@@ -85,6 +85,23 @@ fn every_string_is_a_valid_mesh_after_every_token() {
             let tokens = structured(&mut rng, 0..=120, &shares());
             check_string(initial, &tokens, Rules::Plain);
         }
+    }
+}
+
+/// Strings as the search makes them; `QUADRILLE_STRINGS` asks for more of them (ten million have been run).
+#[test]
+fn no_string_fails() {
+    let asked = std::env::var("QUADRILLE_STRINGS").ok().and_then(|n| n.parse().ok());
+    let bases = bases();
+    for i in 0..asked.unwrap_or(20_000u32) {
+        let mut rng = stream(9, 0, i);
+        let initial = bases.values().nth(i as usize % bases.len()).unwrap();
+        let rules = if i % 2 == 0 { Rules::Plain } else { Rules::Domain };
+        let tokens = match i % 3 {
+            0 => random_string(&mut rng, 40),
+            _ => structured(&mut rng, 4..=40, &shares()),
+        };
+        check_mesh(initial, &decode(initial, &tokens, rules).mesh);
     }
 }
 

@@ -189,3 +189,20 @@ fn the_observer_sees_every_evaluation_and_generation() {
     assert_eq!((counter.0, counter.1), (outcome.evaluated.len() as u64, 5));
     assert_eq!(outcome, run_silently(&problem, &settings(4), 1), "being watched changes nothing");
 }
+
+#[test]
+fn cheap_failures_do_not_use_a_generation_up() {
+    let structural = |refills: u32| {
+        let mut settings = settings(0);
+        settings.search.refills = refills;
+        // Rejected designs are evaluated here, and fail before their structure is analysed.
+        settings.search.rebreed_rejected = false;
+        settings.search.population = 60;
+        let outcome = run_silently(&Counting { fragile: true, ..Counting::new() }, &settings, 2);
+        let analysed = outcome.evaluated.iter().filter(|r| r.structural).count();
+        assert!(outcome.evaluated.len() > analysed);
+        analysed
+    };
+    assert!(structural(0) < 50);
+    assert!((55..=60).contains(&structural(5)));
+}

@@ -3,6 +3,7 @@
 //! stdout is for results, stderr for progress and messages. Exit codes are those of [`CliError`] and [`exit`].
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "the binary is what talks to people")]
 
+mod axes;
 mod check;
 mod compare;
 mod completions;
@@ -53,6 +54,7 @@ enum Command {
     Run(run::Args),
     Evaluate(evaluate::Args),
     Check(check::Args),
+    Axes(axes::Args),
     Init(init::Args),
     Report(report::Args),
     Export(export::Args),
@@ -80,6 +82,7 @@ pub fn main() -> ExitCode {
         Command::Verify(args) => verify::run(args, &console),
         Command::Neighbours(args) => neighbours::run(args, &console),
         Command::Check(args) => check::run(args, &console),
+        Command::Axes(args) => axes::run(args, &console),
         Command::Init(args) => init::run(args, &console),
         Command::Frame(args) => frame::run(args, &console),
         Command::Report(args) => report::run(args, &console),

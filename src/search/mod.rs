@@ -19,7 +19,7 @@ mod stop;
 mod store;
 
 pub use driver::run;
-pub use normalise::{ENOUGH, Normalisation};
+pub use normalise::{ENOUGH, Normalisation, quantile};
 pub use observer::{Observer, Progress, Silent};
 pub use outcome::{Ended, Outcome};
 pub use params::{ObjectivesParams, SearchParams};

@@ -49,11 +49,33 @@ impl Normalisation {
         Some(Self { ideal, reference })
     }
 
+    /// From the spread of a sample: 0 at the 1 % quantile of each objective, 1 at the 95 % quantile, so that neither
+    /// depends on one odd design. `None` without points.
+    pub fn quantiles<'a>(points: impl Iterator<Item = &'a [f64]>) -> Option<Self> {
+        let mut columns: Vec<Vec<f64>> = Vec::new();
+        for point in points {
+            columns.resize(point.len(), Vec::new());
+            columns.iter_mut().zip(point).for_each(|(column, x)| column.push(*x));
+        }
+        columns.iter_mut().for_each(|column| column.sort_by(f64::total_cmp));
+        let axis = |q: f64| columns.iter().map(|column| quantile(column, q)).collect();
+        (!columns.is_empty()).then(|| Self { ideal: axis(0.01), reference: axis(0.95) })
+    }
+
     /// A point in units of the axes.
     pub fn apply(&self, objectives: &[f64]) -> Vec<f64> {
         let axes = self.ideal.iter().zip(&self.reference);
         objectives.iter().zip(axes).map(|(f, (ideal, reference))| (f - ideal) / (reference - ideal)).collect()
     }
+}
+
+/// The value that a share `q` of the sorted `values` does not exceed (nearest rank).
+///
+/// # Panics
+/// Without values.
+pub fn quantile(values: &[f64], q: f64) -> f64 {
+    let rank = (q * values.len() as f64).ceil() as usize;
+    values[rank.clamp(1, values.len()) - 1]
 }
 
 /// The smallest and the largest value of each objective.
@@ -133,5 +155,14 @@ mod tests {
         assert_eq!(taken.ideal, [0.0, -19.0, 3.0]);
         assert!((taken.reference[0] - 20.9).abs() < 1e-12 && taken.reference[1] == 0.0);
         assert!(taken.reference[2] > 3.0);
+    }
+
+    #[test]
+    fn axes_of_a_sample() {
+        let points: Vec<[f64; 2]> = (1..=1000).rev().map(|k| [f64::from(k), -f64::from(k)]).collect();
+        let axes = Normalisation::quantiles(points.iter().map(|p| &p[..])).expect("points");
+        assert_eq!((axes.ideal, axes.reference), (vec![10.0, -991.0], vec![950.0, -51.0]));
+        assert_eq!(Normalisation::quantiles(std::iter::empty()), None);
+        assert_eq!([0.25, 0.5, 0.75].map(|q| quantile(&[1.0, 2.0, 3.0], q)), [1.0, 2.0, 3.0]);
     }
 }

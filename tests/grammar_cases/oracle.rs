@@ -30,11 +30,7 @@ fn unmarked(mesh: &QuadMesh) -> quadrille::mesh::Code {
 fn check_walker(initial: &InitialMesh, walker: &Walker, changed: bool) {
     let mesh = walker.mesh();
     if changed {
-        validate::check(mesh).unwrap_or_else(|invalid| panic!("{invalid}"));
-        validate::check_invariants(mesh).unwrap_or_else(|fault| panic!("{fault}"));
-        assert_eq!(mesh.euler_characteristic(), initial.mesh.euler_characteristic());
-        assert_eq!(mesh.loop_count(), initial.mesh.loop_count());
-        check_labels(mesh);
+        check_mesh(initial, mesh);
     }
     if let Some(darts) = walker.polyedge() {
         for pair in darts.windows(2) {
@@ -44,6 +40,15 @@ fn check_walker(initial: &InitialMesh, walker: &Walker, changed: bool) {
             assert_eq!(mesh.end(last), walker.position());
         }
     }
+}
+
+/// The mesh is valid, has the topology of the initial one, and its labels are right.
+pub fn check_mesh(initial: &InitialMesh, mesh: &QuadMesh) {
+    validate::check(mesh).unwrap_or_else(|invalid| panic!("{invalid}"));
+    validate::check_invariants(mesh).unwrap_or_else(|fault| panic!("{fault}"));
+    assert_eq!(mesh.euler_characteristic(), initial.mesh.euler_characteristic());
+    assert_eq!(mesh.loop_count(), initial.mesh.loop_count());
+    check_labels(mesh);
 }
 
 /// Labels kept through the rules and strips collected anew agree as partitions of the edges.

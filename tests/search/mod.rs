@@ -31,6 +31,8 @@ pub struct Counting {
     pub bounds: TokenBounds,
     pub objectives: usize,
     pub metrics: usize,
+    /// Whether topology rules out half of all designs.
+    pub fragile: bool,
 }
 
 impl Counting {
@@ -41,6 +43,7 @@ impl Counting {
             bounds: TokenBounds { min: 4, max: 24 },
             objectives: 3,
             metrics: 3,
+            fragile: false,
         }
     }
 
@@ -68,7 +71,8 @@ impl Problem for Counting {
                 neighbourhood.push((Self::code(&fewer), 1));
             }
         }
-        let rejected = (counts[5] > 3).then(|| (Violation::new(4, counts[5] as f64), "too many".to_owned()));
+        let many = counts[5] > 3 || (self.fragile && counts[0] % 2 == 1);
+        let rejected = many.then(|| (Violation::new(4, counts[5] as f64), "too many".to_owned()));
         Identity { code: Self::code(&counts), neighbourhood, expressed, rejected }
     }
 

@@ -1,0 +1,76 @@
+//! `quadrille axes`: `ideal` and `reference` of a config from random designs.
+
+use super::config_args::ConfigArgs;
+use super::{CliError, Console};
+use quadrille::mesh::CanonicalMesh;
+use quadrille::random::stream;
+use quadrille::search::{Evaluation, Normalisation, Problem, round_significant};
+use quadrille::study::{Effort, Study};
+use rayon::prelude::*;
+use std::collections::BTreeSet;
+use std::process::ExitCode;
+
+/// Evaluate random designs and print `ideal` and `reference` for the config's [objectives].
+///
+/// The designs are those of the config's initialiser and seed, of different topology, none of them pinched or flat.
+/// Limits and requirements do not count here, so that also a config which few random designs satisfy has its axes.
+/// `ideal` is the 1 % quantile of each objective, `reference` the 95 % quantile.
+#[derive(clap::Args)]
+pub struct Args {
+    #[command(flatten)]
+    config: ConfigArgs,
+    /// How many designs.
+    #[arg(long, value_name = "N", default_value_t = 1000)]
+    designs: usize,
+    /// Threads; 0 = one per core.
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+}
+
+/// Strings drawn per design wanted before giving up.
+const TRIES: usize = 1000;
+
+/// Prints the two lines.
+pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
+    let config = args.config.load(&[])?;
+    let study = args.config.study(&config)?;
+    let topologies = different(&study, config.run.seed.unwrap_or(0), args.designs);
+    console.note(&format!("evaluating {} random designs", topologies.len()));
+    let pool =
+        rayon::ThreadPoolBuilder::new().num_threads(args.threads.unwrap_or(config.run.threads)).build();
+    let pool = pool.map_err(|error| CliError::Failed(error.to_string()))?;
+    let evaluate = |topology| study.evaluate_topology(topology, Effort::Everything);
+    let evaluations: Vec<Evaluation> = pool.install(|| topologies.into_par_iter().map(evaluate).collect());
+    let points = evaluations.iter().map(|e| &e.objectives[..]).filter(|objectives| !objectives.is_empty());
+    let Some(axes) = Normalisation::quantiles(points.clone()) else {
+        return Err(CliError::Failed("none of these designs has all objectives".into()));
+    };
+    println!("# 1 % and 95 % quantiles of {} of {} random designs", points.count(), evaluations.len());
+    println!("ideal = {}", list(&axes.ideal));
+    println!("reference = {}", list(&axes.reference));
+    Ok(ExitCode::SUCCESS)
+}
+
+/// `wanted` topologies, as the initialiser gives them, each once.
+fn different(study: &Study, seed: u64, wanted: usize) -> Vec<CanonicalMesh> {
+    let mut rng = stream(seed, 0, 0);
+    let mut seen = BTreeSet::new();
+    let mut topologies = Vec::with_capacity(wanted);
+    for _ in 0..wanted.saturating_mul(TRIES) {
+        if topologies.len() == wanted {
+            break;
+        }
+        let tokens = study.random(&mut rng);
+        let identity = study.identify(&tokens);
+        if identity.rejected.is_none() && seen.insert(identity.code) {
+            topologies.push(study.topology(&tokens));
+        }
+    }
+    topologies
+}
+
+/// To four digits: axes are a scale, not a result.
+fn list(values: &[f64]) -> String {
+    let four = |x: &f64| format!("{}", round_significant(format!("{x:.3e}").parse().unwrap_or(*x)));
+    format!("[{}]", values.iter().map(four).collect::<Vec<_>>().join(", "))
+}
