@@ -5,7 +5,7 @@ use super::boundary::BoundaryLoop;
 use super::params::{RelaxKind, RelaxParams};
 use super::pattern::Panel;
 use super::place::Placed;
-use super::vector::{Vec3, add, cross, dot, norm, plan_cross, scale, sub};
+use super::vector::{Vec3, add, cross, dot, norm, scale, sub};
 use crate::domain::Domain;
 use crate::surface::{Surface, SurfaceKind};
 
@@ -332,24 +332,36 @@ impl<'a> Sweep<'a> {
         bad
     }
 
+    #[inline]
     fn check_panel(&self, p: u32, bad: &mut Vec<u32>) {
         let quad = &self.mesh.quads[p as usize];
-        let new = quad.map(|v| self.next[v as usize]);
-        if !self.is_free && is_plainly_open(&new, Mesh::is_triangle(quad)) {
-            return;
+        let plan = quad.map(|v| {
+            let [x, y, _] = self.next[v as usize];
+            [x, y]
+        });
+        if self.is_free || !is_plainly_open(&plan, Mesh::is_triangle(quad)) {
+            self.check_corners(quad, bad);
         }
-        let old = quad.map(|v| self.placed.positions[v as usize]);
+    }
+
+    /// The close look at a panel, without and with its step: a corner that turns over names its triangle.
+    #[inline(never)]
+    fn check_corners(&self, quad: &[u32; 4], bad: &mut Vec<u32>) {
         let corners = if Mesh::is_triangle(quad) { 1 } else { 4 };
+        let new = quad.map(|v| self.next[v as usize]);
+        let old = quad.map(|v| self.placed.positions[v as usize]);
         let (before, after) = if self.is_free {
-            let areas = corner_areas(&old);
-            let along = |k: usize, area: Vec3| dot(area, areas[k]);
-            let new_areas = corner_areas(&new);
+            let (areas, new_areas) = (corner_areas(&old), corner_areas(&new));
             (
-                std::array::from_fn(|k| along(k, areas[k])),
-                std::array::from_fn(|k: usize| along(k, new_areas[k])),
+                std::array::from_fn(|k| dot(areas[k], areas[k])),
+                std::array::from_fn(|k: usize| dot(new_areas[k], areas[k])),
             )
         } else {
-            (self.openness(quad, &old), self.openness(quad, &new))
+            let after = self.openness(quad, &new);
+            if after[..corners].iter().all(|open| *open > 0.0) {
+                return;
+            }
+            (self.openness(quad, &old), after)
         };
         for i in 0..corners {
             if before[i] > 0.0 && after[i] <= 0.0 {
@@ -412,12 +424,18 @@ fn corner_areas(&[a, b, c, d]: &[Vec3; 4]) -> [Vec3; 4] {
 
 /// Whether a panel is so far from folded in plan that it cannot be folded on a roof either: most panels.
 #[inline]
-fn is_plainly_open(&[a, b, c, d]: &[Vec3; 4], is_triangle: bool) -> bool {
-    let (x, y, u, v) = (c[0] - a[0], c[1] - a[1], d[0] - b[0], d[1] - b[1]);
-    let enough = OPEN_SHARE * (x * x + y * y + u * u + v * v);
-    plan_cross(a, b, c) > enough
-        && (is_triangle
-            || (plan_cross(b, c, d) > enough && plan_cross(c, d, a) > enough && plan_cross(d, a, b) > enough))
+fn is_plainly_open(&[a, b, c, d]: &[[f64; 2]; 4], is_triangle: bool) -> bool {
+    let to = |p: [f64; 2], q: [f64; 2]| [q[0] - p[0], q[1] - p[1]];
+    let square = |v: [f64; 2]| v[0] * v[0] + v[1] * v[1];
+    let turn = |v: [f64; 2], w: [f64; 2]| v[0] * w[1] - v[1] * w[0];
+    let enough = OPEN_SHARE * (square(to(a, c)) + square(to(b, d)));
+    let first = turn(to(a, b), to(b, c));
+    if is_triangle {
+        return first > enough;
+    }
+    // One comparison, which is nearly always true, for all four.
+    let rest = [(b, c, d), (c, d, a), (d, a, b)].map(|(p, q, r)| turn(to(p, q), to(q, r)));
+    rest.into_iter().fold(first, f64::min) > enough
 }
 
 #[inline]

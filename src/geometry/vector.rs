@@ -50,9 +50,3 @@ pub fn distance(a: Vec3, b: Vec3) -> f64 {
 pub fn angle(a: Vec3, b: Vec3) -> f64 {
     libm::atan2(norm(cross(a, b)), dot(a, b))
 }
-
-/// Twice the area of the triangle a, b, c in plan, positive counter-clockwise.
-#[inline]
-pub fn plan_cross(a: Vec3, b: Vec3, c: Vec3) -> f64 {
-    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-}

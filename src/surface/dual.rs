@@ -1,17 +1,10 @@
 //! Forward differentiation: one formula, written once, gives height and gradient.
 
+use super::algebra::{Algebra, exp_bounded};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// What the formulas of height surfaces need of a number.
-pub(super) trait Real:
-    Copy
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-    + Neg<Output = Self>
-    + From<f64>
-{
+/// A number that functions of one and two arguments can be applied to by the chain rule.
+pub(super) trait Real: Algebra {
     /// The number without its derivatives.
     fn value(self) -> f64;
 
@@ -20,13 +13,6 @@ pub(super) trait Real:
 
     /// f(a, b), given the value of f and its two partial derivatives; one whose argument is constant may be anything.
     fn combine(a: Self, b: Self, f: f64, partials: [f64; 2]) -> Self;
-
-    /// √self; at 0 its derivative is taken as 0.
-    #[inline]
-    fn sqrt(self) -> Self {
-        let root = self.value().sqrt();
-        self.chain(root, if root > 0.0 { 0.5 / root } else { 0.0 })
-    }
 
     /// e^self.
     fn exp(self) -> Self {
@@ -115,6 +101,20 @@ impl Neg for Dual {
     #[inline]
     fn neg(self) -> Self {
         Self { value: -self.value, slope: [-self.slope[0], -self.slope[1]] }
+    }
+}
+
+impl Algebra for Dual {
+    #[inline]
+    fn sqrt(self) -> Self {
+        let root = self.value.sqrt();
+        self.chain(root, if root > 0.0 { 0.5 / root } else { 0.0 })
+    }
+
+    #[inline]
+    fn exp_bounded(self) -> Self {
+        let e = exp_bounded(self.value);
+        self.chain(e, e)
     }
 }
 

@@ -1,8 +1,10 @@
 //! The roof of the British Museum's Great Court (Williams 2001, *The analytic and numerical definition of the geometry of the
 //! British Museum Great Court Roof*; GEOMETRY §4).
 
-use super::dual::{Dual, Real};
+use super::algebra::Algebra;
+use super::dual::Dual;
 use super::height::HeightFunction;
+use super::lanes::{LANES, Lanes};
 
 /// Radius of the reading room's circle about the origin, m.
 const A: f64 = 22.245;
@@ -30,11 +32,33 @@ pub struct GreatCourt;
 
 impl HeightFunction for GreatCourt {
     fn z(&self, x: f64, y: f64) -> f64 {
-        roof(x.clamp(-B, B), y.clamp(-D, C))
+        let (x, y) = within_walls(x, y);
+        rim(x, y).unwrap_or_else(|| roof(x, y))
+    }
+
+    fn lift_all(&self, points: &mut [[f64; 3]]) {
+        let mut batches = points.chunks_exact_mut(LANES);
+        for batch in &mut batches {
+            let (mut x, mut y) = ([0.0; LANES], [0.0; LANES]);
+            for (i, point) in batch.iter().enumerate() {
+                (x[i], y[i]) = within_walls(point[0], point[1]);
+            }
+            let Lanes(z) = roof(Lanes(x), Lanes(y));
+            for (i, point) in batch.iter_mut().enumerate() {
+                point[2] = rim(x[i], y[i]).unwrap_or(z[i]);
+            }
+        }
+        for point in batches.into_remainder() {
+            point[2] = self.z(point[0], point[1]);
+        }
     }
 
     fn gradient(&self, x: f64, y: f64) -> [f64; 2] {
-        let [x, y] = Dual::variables(x.clamp(-B, B), y.clamp(-D, C));
+        let (x, y) = within_walls(x, y);
+        if rim(x, y).is_some() {
+            return [0.0; 2];
+        }
+        let [x, y] = Dual::variables(x, y);
         roof(x, y).slope
     }
 
@@ -50,17 +74,32 @@ impl HeightFunction for GreatCourt {
     }
 }
 
-/// z = z₁ + z₂ + z₃ inside the walls (|x| ≤ b, −d ≤ y ≤ c).
+/// The nearest point within the walls.
+#[inline]
+fn within_walls(x: f64, y: f64) -> (f64, f64) {
+    (x.clamp(-B, B), y.clamp(-D, C))
+}
+
+/// The height where the formula does not say it: within the circle, and in the corners, where it is 0/0.
+#[inline]
+fn rim(x: f64, y: f64) -> Option<f64> {
+    if (x * x + y * y).sqrt() <= A {
+        Some(H1)
+    } else if x.abs() >= B && (y >= C || y <= -D) {
+        Some(H0)
+    } else {
+        None
+    }
+}
+
+/// z = z₁ + z₂ + z₃ inside the walls (|x| ≤ b, −d ≤ y ≤ c) and outside the circle, but for the corners.
 ///
 /// On the walls Σ q of β is infinite; so β is written with the four wall distances multiplied out, which leaves 0/0 in the
 /// corners alone.
-#[inline]
-fn roof<T: Real>(x: T, y: T) -> T {
+#[inline(always)]
+fn roof<T: Algebra>(x: T, y: T) -> T {
     let k = T::from;
     let r = (x * x + y * y).sqrt();
-    if r.value() <= A {
-        return k(H1);
-    }
     let sin = y / r;
     let sin2 = sin * sin;
     let (east, west) = (k(B) - x, k(B) + x);
@@ -77,16 +116,13 @@ fn roof<T: Real>(x: T, y: T) -> T {
         + (east * east + south * south).sqrt() * west * north
         + (west * west + north * north).sqrt() * east * south
         + (west * west + south * south).sqrt() * east * north;
-    if sum.value() <= 0.0 {
-        return k(H0);
-    }
     let beta = (k(1.0) - shrink) * walls / sum;
     z1 + z2 + beta * third(east, north, south, sin, sin2)
 }
 
 /// z₂, with `beyond` = r/a − 1; uses (1 + cos 2θ)/2 = 1 − sin²θ and (1 − cos 2θ)/2 = sin²θ.
-#[inline]
-fn second<T: Real>(beyond: T, psi: T, sin: T, sin2: T) -> T {
+#[inline(always)]
+fn second<T: Algebra>(beyond: T, psi: T, sin: T, sin2: T) -> T {
     let k = T::from;
     let alpha = beyond * psi;
     let cos2 = k(1.0) - sin2;
@@ -98,15 +134,15 @@ fn second<T: Real>(beyond: T, psi: T, sin: T, sin2: T) -> T {
 }
 
 /// z₃/β; e^(−μ(1+x/b)) is e^(−2μ) / e^(−μ(1−x/b)), which saves one of four exponentials.
-#[inline]
-fn third<T: Real>(east: T, north: T, south: T, sin: T, sin2: T) -> T {
+#[inline(always)]
+fn third<T: Algebra>(east: T, north: T, south: T, sin: T, sin2: T) -> T {
     /// e^(−2μ) for μ = 14.
     const E_2MU: f64 = 6.914_400_106_940_203e-13;
     let k = T::from;
     let smooth = k(3.5) * (k(1.0) - sin2) + k(3.0) * sin2 + k(0.3) * sin;
-    let at_east = (east * k(-MU / B)).exp();
+    let at_east = (east * k(-MU / B)).exp_bounded();
     let in_x = at_east + k(E_2MU) / at_east;
-    let in_y = (north * k(-MU / C)).exp() + (south * k(-MU / D)).exp();
+    let in_y = (north * k(-MU / C)).exp_bounded() + (south * k(-MU / D)).exp_bounded();
     k(LAMBDA) * smooth + k(1.05) * in_x * in_y
 }
 
@@ -199,6 +235,19 @@ mod tests {
             }
         }
         assert!(worst < 1e-12, "{worst:e}");
+    }
+
+    #[test]
+    fn many_points_have_the_heights_of_each() {
+        let mut rng = crate::random::stream(3, 0, 0);
+        let mut number = |from: f64, to: f64| from + (to - from) * crate::random::unit(&mut rng);
+        // Also within the circle, beyond the walls, and in the corners.
+        let mut points: Vec<[f64; 3]> =
+            (0..5_003).map(|_| [number(-40.0, 40.0), number(-55.0, 50.0), 0.0]).collect();
+        points.extend([[B, C, 0.0], [-B, C, 0.0], [B, -D, 0.0], [-B, -D, 0.0], [50.0, 60.0, 0.0]]);
+        let each: Vec<f64> = points.iter().map(|p| GreatCourt.z(p[0], p[1])).collect();
+        HeightSurface(GreatCourt).project_all(&mut points);
+        assert!(points.iter().zip(&each).all(|(p, z)| p[2].to_bits() == z.to_bits()));
     }
 
     #[test]

@@ -7,6 +7,13 @@ pub trait HeightFunction: Send + Sync {
     /// Height. Total: where the function does not exist it is continued from the rim, or not finite.
     fn z(&self, x: f64, y: f64) -> f64;
 
+    /// Sets the heights of many points.
+    fn lift_all(&self, points: &mut [[f64; 3]]) {
+        for point in points {
+            point[2] = self.z(point[0], point[1]);
+        }
+    }
+
     /// (∂z/∂x, ∂z/∂y).
     fn gradient(&self, x: f64, y: f64) -> [f64; 2];
 
@@ -34,6 +41,10 @@ impl<F: HeightFunction> Surface for HeightSurface<F> {
 
     fn project(&self, [x, y, _]: [f64; 3]) -> [f64; 3] {
         [x, y, self.0.z(x, y)]
+    }
+
+    fn project_all(&self, points: &mut [[f64; 3]]) {
+        self.0.lift_all(points);
     }
 
     fn normal(&self, [x, y, _]: [f64; 3]) -> [f64; 3] {

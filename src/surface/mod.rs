@@ -1,5 +1,6 @@
 //! What vertices are held on (GEOMETRY §1): one surface a file, [`build`] makes them from the config.
 
+mod algebra;
 mod cylinder;
 mod dual;
 mod error;
@@ -8,12 +9,12 @@ pub mod expression;
 mod free;
 mod great_court;
 mod height;
-mod hypar;
+mod lanes;
 mod mesh;
 
-mod paraboloid;
 pub mod params;
 mod plane;
+mod quadric;
 mod sphere;
 mod tree;
 
@@ -25,6 +26,7 @@ pub use mesh::MeshSurface;
 pub use params::SurfaceParams;
 pub use tree::{Closest, TriangleTree};
 
+use quadric::{Quadric, Shape};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -83,10 +85,11 @@ pub fn build(params: &SurfaceParams, base_dir: &Path) -> Result<Arc<dyn Surface>
             Arc::new(HeightSurface(expression::Expression::parse(expression, constants, lets)?))
         }
         SurfaceParams::Paraboloid { center_m, half_spans_m, rise_m, base_m } => {
-            Arc::new(HeightSurface(paraboloid::Paraboloid::new(*center_m, *half_spans_m, *rise_m, *base_m)?))
+            let shape = Shape::Paraboloid;
+            Arc::new(HeightSurface(Quadric::new(shape, *center_m, *half_spans_m, *rise_m, *base_m)?))
         }
         SurfaceParams::Hypar { center_m, half_spans_m, rise_m, base_m } => {
-            Arc::new(HeightSurface(hypar::Hypar::new(*center_m, *half_spans_m, *rise_m, *base_m)?))
+            Arc::new(HeightSurface(Quadric::new(Shape::Hypar, *center_m, *half_spans_m, *rise_m, *base_m)?))
         }
         SurfaceParams::Sphere { center_m, radius_m } => Arc::new(sphere::Sphere::new(*center_m, *radius_m)?),
         SurfaceParams::Cylinder { center_m, axis_deg, radius_m } => {
