@@ -1,46 +1,69 @@
-//! Developing the Great Court's initial design: the whole chain at 2,000 and 22,000 panels, and relaxing alone.
+//! From the Great Court's initial mesh to patterns (issue 5: at 22,000 vertices densifying and placing ≤ 0.3 s, 100 sweeps with
+//! area weights on the roof ≤ 0.5 s), and the whole chain as the search runs it, at 2,000 panels.
+#![allow(missing_docs, clippy::unwrap_used, reason = "criterion's macros; fixed inputs")]
 
-use criterion::{Criterion, criterion_group, criterion_main};
-use quadrille::domain::{Domain, DomainParams};
+#[path = "../tests/geometry_support/mod.rs"]
+mod geometry_support;
+
+use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
+use geometry_support::great_court;
+use quadrille::geometry::coarse::Coarse;
+use quadrille::geometry::dense::{Dense, Edges, densify};
 use quadrille::geometry::params::RelaxParams;
-use quadrille::geometry::{PatternParams, develop};
+use quadrille::geometry::place::{self, Folds, Placed};
+use quadrille::geometry::{PatternParams, boundary, corners, density, develop, relax};
 use quadrille::mesh::isomorphism::canonical_mesh;
-use quadrille::mesh::{InitialMesh, base_json};
-use quadrille::surface::{SurfaceParams, build};
-use std::path::Path;
+use quadrille::study::Study;
 
-const DOMAIN: &str = r#"
-[[loop]]
-kind = "polyline"
-points_m = [[-36.625, -51.125], [36.625, -51.125], [36.625, 46.025], [-36.625, 46.025]]
-[[loop]]
-kind = "circle"
-center_m = [0.0, 0.0]
-radius_m = 22.245
-"#;
+/// Panels of the strips of a coarse design: about 22,000 vertices.
+const PANELS: usize = 22_000;
+
+/// Densified and placed, as a step of developing.
+fn placed(
+    study: &Study,
+    coarse: &Coarse<'_>,
+    parts: &[u32],
+) -> (Dense, Edges, Vec<boundary::BoundaryLoop>, Placed) {
+    let dense = densify(coarse, parts);
+    let edges = Edges::of(dense.vertex_count, &dense.panels);
+    let corners = corners::assign(coarse, &study.domain);
+    let loops = boundary::anchor(coarse, &dense, &study.domain, &corners).unwrap();
+    let placed =
+        place::place(&study.domain, study.surface.as_ref(), &dense, &edges, &loops, Folds::Leave).unwrap();
+    (dense, edges, loops, placed)
+}
 
 fn geometry(criterion: &mut Criterion) {
-    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let surface = build(&SurfaceParams::GreatCourt {}, here).expect("a surface");
-    let params: DomainParams = toml::from_str(DOMAIN).expect("a domain");
-    let domain = Domain::resolve(&params, &surface, here).expect("a domain");
-    let base =
-        std::fs::read_to_string(here.join("tests/data/grammar/bases/great_court.json")).expect("a file");
-    let initial = InitialMesh::from_base(&base_json::read(&base).expect("a base mesh")).expect("a mesh");
-    let mesh = canonical_mesh(&initial.mesh);
+    let study = great_court();
+    let mesh = canonical_mesh(&study.initial.mesh);
+    let coarse = Coarse::of(&mesh);
+    let fine = PatternParams { panels: PANELS, max_faces: 2 * PANELS, ..PatternParams::default() };
+    let (probe, _, _, at) = placed(&study, &coarse, &vec![density::PROBE_PARTS; mesh.strips.len()]);
+    let lengths = density::strip_lengths(&coarse, &probe, &at.positions);
+    let parts = density::choose(&coarse, &lengths, &fine).unwrap().parts;
 
-    // Placing and densifying alone is developing without sweeps; relaxing is the rest.
-    let mut group = criterion.benchmark_group("develop");
+    let mut group = criterion.benchmark_group("geometry");
     group.sample_size(10);
-    for (name, panels, sweeps) in [
-        ("2 000 panels, 100 area sweeps", 2_000, 100),
-        ("22 000 panels, no sweep", 22_000, 0),
-        ("22 000 panels, 100 area sweeps", 22_000, 100),
-    ] {
-        let relax = RelaxParams { sweeps, ..RelaxParams::default() };
-        let params = PatternParams { panels, max_faces: 30_000, relax, ..PatternParams::default() };
-        group.bench_function(name, |b| b.iter(|| develop(&mesh, &domain, surface.as_ref(), &params)));
-    }
+    group.bench_function("densify_and_place_22000", |b| b.iter(|| placed(&study, &coarse, &parts).3));
+
+    let (dense, edges, loops, start) = placed(&study, &coarse, &parts);
+    let sweeps = relax::Mesh::new(dense.vertex_count, &dense.panels, &edges.list, &loops);
+    let start = || Placed { positions: start.positions.clone(), along: start.along.clone() };
+    group.bench_function("relax_22000_area_100", |b| {
+        b.iter_batched(
+            start,
+            |mut placed| {
+                let params = RelaxParams::default();
+                relax::relax(&mut placed, &sweeps, &study.domain, study.surface.as_ref(), &params);
+                placed
+            },
+            BatchSize::LargeInput,
+        );
+    });
+    let params = PatternParams::default();
+    group.bench_function("develop_2000", |b| {
+        b.iter(|| develop(&mesh, &study.domain, study.surface.as_ref(), &params));
+    });
     group.finish();
 }
 

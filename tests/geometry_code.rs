@@ -11,12 +11,13 @@ use quadrille::mesh::{BaseMesh, CanonicalMesh, Code, InitialMesh, QuadMesh};
 use quadrille::random::{Rng, below, stream};
 use quadrille::search::operators::Growth;
 use quadrille::search::params::{Initialiser, TokenBounds};
+use quadrille::study::Study;
 use std::collections::BTreeMap;
 
 /// Coarse and quickly relaxed: what is compared is bytes, not beauty.
 fn params() -> PatternParams {
     let relax = RelaxParams { sweeps: 10, ..RelaxParams::default() };
-    PatternParams { panels: 200, relax, ..PatternParams::default() }
+    PatternParams { panels: 300, relax, ..PatternParams::default() }
 }
 
 fn random_string(initial: &InitialMesh, index: u32) -> Tokens {
@@ -27,12 +28,12 @@ fn random_string(initial: &InitialMesh, index: u32) -> Tokens {
 }
 
 /// All numbers of a developed design, or why it has none, to the last bit.
-fn fingerprint(mesh: &CanonicalMesh) -> String {
-    let (_, domain, surface) = great_court();
-    if let Some(rejection) = topological_rejection(mesh, &domain, Pinched::Allow) {
+fn fingerprint(court: &Study, mesh: &CanonicalMesh) -> String {
+    let Study { domain, surface, .. } = court;
+    if let Some(rejection) = topological_rejection(mesh, domain, Pinched::Allow) {
         return rejection.to_string();
     }
-    match shape(mesh, &domain, surface.as_ref(), &params()) {
+    match shape(mesh, domain, surface.as_ref(), &params()) {
         Ok(pattern) => format!("{:?} {:?}", metrics::measure(&pattern, mesh), pattern.positions),
         Err(rejection) => rejection.to_string(),
     }
@@ -40,15 +41,15 @@ fn fingerprint(mesh: &CanonicalMesh) -> String {
 
 #[test]
 fn strings_of_one_code_give_the_same_bytes() {
-    let (initial, _, _) = great_court();
+    let court = great_court();
     let mut first: BTreeMap<Code, (Tokens, CanonicalMesh)> = BTreeMap::new();
-    let (mut pairs, mut developed) = (0, 0);
+    let mut pairs = 0;
     for index in 0.. {
         if pairs == 1000 {
             break;
         }
-        let tokens = random_string(&initial, index);
-        let decoded = decode(&initial, &tokens, Rules::Domain);
+        let tokens = random_string(&court.initial, index);
+        let decoded = decode(&court.initial, &tokens, Rules::Domain);
         let mesh = canonical_mesh(&decoded.mesh);
         let Some((other, known)) = first.get(&mesh.code) else {
             first.insert(mesh.code, (decoded.expressed, mesh));
@@ -58,29 +59,22 @@ fn strings_of_one_code_give_the_same_bytes() {
             continue;
         }
         assert_eq!(*known, mesh, "{other} and {tokens}");
+        assert_eq!(fingerprint(&court, known), fingerprint(&court, &mesh), "{other} and {tokens}");
         pairs += 1;
-        // Equal arrays go in, so equal bytes come out; that the way from one to the other has no other input is seen on some.
-        if pairs % 20 == 0 {
-            assert_eq!(fingerprint(known), fingerprint(&mesh), "{other} and {tokens}");
-            developed += 1;
-        }
     }
-    assert_eq!(developed, 50);
 }
 
 #[test]
 fn numbers_of_vertices_and_faces_do_not_matter() {
-    let (initial, _, _) = great_court();
+    let court = great_court();
     for index in 0..1000 {
-        let tokens = random_string(&initial, 100_000 + index);
-        let decoded = decode(&initial, &tokens, Rules::Domain);
+        let tokens = random_string(&court.initial, 100_000 + index);
+        let decoded = decode(&court.initial, &tokens, Rules::Domain);
         let renumbered = renumbered(&decoded.mesh, &mut stream(12, 0, index));
         let again = InitialMesh::from_base(&renumbered).expect("a valid mesh");
         let (before, after) = (canonical_mesh(&decoded.mesh), canonical_mesh(&again.mesh));
         assert_eq!(before, after, "{tokens}");
-        if index % 20 == 0 {
-            assert_eq!(fingerprint(&before), fingerprint(&after), "{tokens}");
-        }
+        assert_eq!(fingerprint(&court, &before), fingerprint(&court, &after), "{tokens}");
     }
 }
 

@@ -32,10 +32,11 @@ fn numbers(value: &Value) -> Vec<f64> {
 #[test]
 #[ignore = "writes test data"]
 fn write_the_pattern() {
-    let (initial, domain, surface) = great_court();
+    let court = great_court();
     let params = PatternParams { panels: 300, ..PatternParams::default() };
     let pattern =
-        develop(&canonical_mesh(&initial.mesh), &domain, surface.as_ref(), &params).expect("a pattern");
+        develop(&canonical_mesh(&court.initial.mesh), &court.domain, court.surface.as_ref(), &params)
+            .expect("a pattern");
     let faces: Vec<&[u32]> = pattern.panels.iter().map(Panel::corners).collect();
     let text = json!({ "vertices": pattern.positions, "faces": faces }).to_string();
     std::fs::write(data("great_court_300.json"), text).expect("written");
@@ -90,8 +91,7 @@ fn curvature_skewness_and_edges_agree_with_compas() {
     });
     let planarity = planarity.sum::<f64>() / flatness.len() as f64;
 
-    let (initial, _, _) = great_court();
-    let found = metrics::measure(&pattern, &canonical_mesh(&initial.mesh));
+    let found = metrics::measure(&pattern, &canonical_mesh(&great_court().initial.mesh));
     for (name, value) in [
         ("mean_curvature", found.curvature),
         ("mean_skewness", found.skewness),
