@@ -22,7 +22,9 @@ use crate::search::{Evaluation, Identity, Problem, RuleOperator, SearchParams, r
 use crate::skeleton::{self, InitialError};
 use crate::structure::StructureParams;
 use crate::structure::gridshell::{self, AnalysisError, Response};
+use crate::structure::params::Direction;
 use crate::surface::{self, Surface, SurfaceError};
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -56,6 +58,20 @@ pub enum StudyError {
     /// The domain is faulty.
     #[error("[domain] {0}")]
     Domain(#[from] DomainError),
+    /// Supports that the symmetries of the config do not carry into each other.
+    #[error(
+        "domain.symmetries: structure.support fixes [{fixed}] on loop {label} and [{image_fixed}] on loop {image}, its image"
+    )]
+    Supports {
+        /// A loop.
+        label: usize,
+        /// What is fixed there.
+        fixed: String,
+        /// Its image.
+        image: usize,
+        /// What is fixed there.
+        image_fixed: String,
+    },
     /// There is no initial mesh.
     #[error("[topology] {0}")]
     Initial(#[from] InitialError),
@@ -111,6 +127,9 @@ impl Study {
         let domain = Domain::resolve(&config.domain, &surface, base_dir)?;
         let initial = initial_mesh(config, &domain, base_dir)?;
         let symmetries = domain.symmetries(&config.domain.symmetries)?;
+        if let Some(structure) = &config.structure {
+            check_supports(&symmetries, structure)?;
+        }
         let objectives =
             config.objectives.minimise.iter().filter_map(|name| objectives::find(name)).collect();
         Ok(Self {
@@ -231,6 +250,28 @@ fn initial_mesh(config: &Config, domain: &Domain, base_dir: &Path) -> Result<Ini
         initial.mesh.blunt(0);
     }
     Ok(initial)
+}
+
+/// Refuses symmetries that carry a loop into one that is supported otherwise. All else of a structure has every symmetry in plan:
+/// loads act evenly and downwards, and supports at the boundary, the corners or everywhere do not tell nodes apart.
+fn check_supports(symmetries: &[Symmetry], structure: &StructureParams) -> Result<(), StudyError> {
+    let fixed = |label: usize| {
+        let here = structure.supports.iter().filter(|support| support.boundary_loop == Some(label));
+        here.flat_map(|support| support.fixed.iter().copied()).collect::<BTreeSet<_>>()
+    };
+    let words = |fixed: &BTreeSet<Direction>| {
+        let names: Vec<String> = fixed.iter().map(|d| format!("{d:?}").to_lowercase()).collect();
+        names.join(", ")
+    };
+    let images = symmetries.iter().flat_map(|symmetry| symmetry.loops.iter().enumerate());
+    for (label, image) in images.map(|(label, &image)| (label, image as usize)) {
+        let (here, there) = (fixed(label), fixed(image));
+        if here != there {
+            let (fixed, image_fixed) = (words(&here), words(&there));
+            return Err(StudyError::Supports { label, fixed, image, image_fixed });
+        }
+    }
+    Ok(())
 }
 
 impl Design {

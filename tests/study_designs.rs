@@ -72,3 +72,46 @@ fn boundary_on_its_curves_inside_on_the_surface_corners_sharp() {
     }
     assert!(seen >= 20, "only {seen} designs were developed");
 }
+
+#[test]
+fn symmetries_are_those_of_the_supports_too() {
+    let two_holes = |supports: &str| {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("two_holes.toml");
+        let text = format!(
+            r#"
+version = 1
+[domain]
+symmetries = ["mirror-x"]
+[[domain.loop]]
+kind = "polyline"
+points_m = [[0, 0], [20, 0], [20, 10], [0, 10]]
+[[domain.loop]]
+kind = "circle"
+center_m = [5, 5]
+radius_m = 2
+[[domain.loop]]
+kind = "circle"
+center_m = [15, 5]
+radius_m = 2
+[surface]
+kind = "plane"
+[structure]
+{supports}
+"#
+        );
+        std::fs::write(&file, text).unwrap();
+        let config = config::load(&file, &[]).unwrap();
+        Study::new(&config, folder.path()).map(|_| ()).map_err(|error| error.to_string())
+    };
+    let on =
+        |label: usize, fixed: &str| format!("[[structure.support]]\nloop = {label}\nfixed = [{fixed}]\n");
+    let both = on(1, "'ux', 'uz'") + &on(2, "'uz'") + &on(2, "'ux'");
+    assert_eq!(two_holes(&both), Ok(()));
+    assert_eq!(two_holes(&on(0, "'ux', 'uy', 'uz'")), Ok(()));
+    let error = two_holes(&(on(1, "'ux', 'uz'") + &on(2, "'uz'"))).unwrap_err();
+    assert_eq!(
+        error,
+        "domain.symmetries: structure.support fixes [ux, uz] on loop 1 and [uz] on loop 2, its image"
+    );
+}
