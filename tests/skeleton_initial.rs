@@ -110,7 +110,7 @@ fn meshes_that_do_not_fit_are_refused() {
         ),
         ("initial = { file = 'files/two.obj' }", &holed, "1 boundary loops, the domain has 3"),
         ("initial = { file = 'files/none.obj' }", &square, "none.obj"),
-        ("initial = { file = 'files/pentagon.obj' }", &square, "face 0 has 5 vertices"),
+        ("initial = { file = 'files/pentagon.obj' }", &square, "files/pentagon.obj:7: face 0 has 5 vertices"),
         (
             "initial = { vertices = [[0,0,0],[6,0,0],[6,4,0],[0,4,0]], faces = [[0,1,2,7]] }",
             &square,

@@ -104,8 +104,11 @@ pub fn parse(text: &str) -> Result<ObjFile, (usize, String)> {
             _ => return Err((line, format!("`{keyword}` is not a keyword of OBJ"))),
         }
     }
-    in_range(&obj.faces, &obj.face_lines, obj.vertices.len())?;
-    in_range(&pieces, &piece_lines, obj.vertices.len())?;
+    let count = obj.vertices.len();
+    let faults = [in_range(&obj.faces, &obj.face_lines, count), in_range(&pieces, &piece_lines, count)];
+    if let Some(first) = faults.into_iter().filter_map(Result::err).min_by_key(|(line, _)| *line) {
+        return Err(first);
+    }
     (obj.polylines, obj.polyline_lines) = join(pieces, piece_lines);
     Ok(obj)
 }

@@ -59,6 +59,23 @@ pub enum BaseMeshError {
     Invalid(#[from] Invalid),
 }
 
+impl BaseMeshError {
+    /// The face at fault, for a reader that knows where it stands in a file.
+    pub fn face(&self) -> Option<usize> {
+        match self {
+            Self::FaceSize { face, .. }
+            | Self::TriangleWithoutPole { face }
+            | Self::QuadWithPole { face, .. }
+            | Self::PoleNotInFace { face, .. }
+            | Self::RepeatedVertex { face, .. }
+            | Self::InconsistentWinding { second: face, .. }
+            | Self::NonManifoldEdge { face, .. }
+            | Self::Disconnected { face } => Some(*face as usize),
+            _ => None,
+        }
+    }
+}
+
 /// An initial mesh and the start of its marker.
 #[derive(Clone, Debug)]
 pub struct InitialMesh {

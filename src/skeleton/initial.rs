@@ -124,21 +124,30 @@ fn inline(
     })
 }
 
-/// A mesh from a file: OBJ by its extension, otherwise JSON, as a base mesh (`vertices`) or by COMPAS (`vertex`).
+/// A valid mesh from a file: OBJ by its extension, otherwise JSON, as a base mesh (`vertices`) or by COMPAS (`vertex`).
 ///
 /// # Errors
-/// A file that cannot be read, with line or key.
+/// A file that cannot be read or whose mesh is not valid, with line or key.
 pub fn read(file: &Path) -> Result<BaseMesh, ReadError> {
+    let content = |reason: String| ReadError::Content { file: file.to_owned(), reason };
     if file.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj")) {
         let obj = obj::read(file)?;
-        return Ok(BaseMesh { vertices: obj.vertices, faces: obj.faces, ..BaseMesh::default() });
+        let base = BaseMesh { vertices: obj.vertices, faces: obj.faces, ..BaseMesh::default() };
+        return match InitialMesh::from_base(&base) {
+            Ok(_) => Ok(base),
+            Err(error) => Err(match error.face().and_then(|face| obj.face_lines.get(face)) {
+                Some(&line) => ReadError::Line { file: file.to_owned(), line, reason: error.to_string() },
+                None => content(error.to_string()),
+            }),
+        };
     }
-    let content = |reason: String| ReadError::Content { file: file.to_owned(), reason };
     let text = String::from_utf8(crate::io::read_bytes(file)?).map_err(|e| content(e.to_string()))?;
-    match serde_json::from_str::<serde_json::Value>(&text) {
-        Ok(value) if value.get("vertices").is_none() => compas::from_value(&value).map_err(content),
-        _ => base_json::read(&text).map_err(|e| content(e.to_string())),
-    }
+    let base = match serde_json::from_str::<serde_json::Value>(&text) {
+        Ok(value) if value.get("vertices").is_none() => compas::from_value(&value).map_err(content)?,
+        _ => base_json::read(&text).map_err(|e| content(e.to_string()))?,
+    };
+    InitialMesh::from_base(&base).map_err(|error| content(error.to_string()))?;
+    Ok(base)
 }
 
 /// An m × n grid between the four corners: m faces along the side from corner 0 to corner 1.
