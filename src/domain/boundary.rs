@@ -191,7 +191,13 @@ impl BoundaryLoop {
 
     /// The point of the curve that is closest in plan, or in space where the surface is free.
     pub fn closest_point(&self, point: [f64; 3]) -> [f64; 3] {
-        self.at(self.curve.closest(point, self.surface.is_some()))
+        self.nearest(point).1
+    }
+
+    /// [`BoundaryLoop::closest`] and [`BoundaryLoop::closest_point`] in one.
+    pub fn nearest(&self, point: [f64; 3]) -> (f64, [f64; 3]) {
+        let t = self.curve.closest(point, self.surface.is_some());
+        (self.arc_length(t), self.at(t))
     }
 
     /// Arc length of the point that is locally closest in plan, going down from arc length `s`.

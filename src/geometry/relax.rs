@@ -261,12 +261,12 @@ impl<'a> Sweep<'a> {
             let curve = &self.domain.loops[slider.label];
             let s = self.placed.along[slider.label][slider.position];
             let length = curve.length();
-            let found = curve.closest(self.next[slider.vertex as usize]) - s;
-            let slide = found - length * libm::round(found / length);
+            let (found, place) = curve.nearest(self.next[slider.vertex as usize]);
+            let slide = (found - s) - length * libm::round((found - s) / length);
             let next = (s + slide).clamp(slider.range[0], slider.range[1]);
             self.slides[i] = next - s;
             self.next_along[i] = next;
-            held.push((slider.vertex, curve.point(next)));
+            held.push((slider.vertex, if next == s + slide { place } else { curve.point(next) }));
         }
         for (l, loop_) in self.mesh.loops.iter().enumerate() {
             for &(position, _) in &loop_.anchors {

@@ -55,7 +55,8 @@ impl HeightFunction for GreatCourt {
 
     fn gradient(&self, x: f64, y: f64) -> [f64; 2] {
         let (x, y) = within_walls(x, y);
-        if rim(x, y).is_some() {
+        let is_corner = x.abs() >= B && (y >= C || y <= -D);
+        if is_corner || (x * x + y * y).sqrt() <= A {
             return [0.0; 2];
         }
         let [x, y] = Dual::variables(x, y);
@@ -80,13 +81,14 @@ fn within_walls(x: f64, y: f64) -> (f64, f64) {
     (x.clamp(-B, B), y.clamp(-D, C))
 }
 
-/// The height where the formula does not say it: within the circle, and in the corners, where it is 0/0.
+/// The height where it is known without the formula: within the circle, and on the walls, which saves boundary points from it. In
+/// the corners the formula is 0/0.
 #[inline]
 fn rim(x: f64, y: f64) -> Option<f64> {
-    if (x * x + y * y).sqrt() <= A {
-        Some(H1)
-    } else if x.abs() >= B && (y >= C || y <= -D) {
+    if x.abs() >= B || y >= C || y <= -D {
         Some(H0)
+    } else if (x * x + y * y).sqrt() <= A {
+        Some(H1)
     } else {
         None
     }
