@@ -170,7 +170,7 @@ impl Study {
         }
         let pattern = geometry::develop(&topology, &self.domain, self.surface.as_ref(), &self.pattern)?;
         let fabrication = metrics::measure(&pattern, &topology);
-        let limits = limits::excesses(&pattern, &self.pattern.limits, 0.0);
+        let limits = limits::excesses(&pattern, &self.pattern.limits);
         let worthwhile = match effort {
             Effort::Pattern => false,
             Effort::Promising => limits.iter().all(|limit| limit.excess <= 0.0),

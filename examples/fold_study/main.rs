@@ -83,7 +83,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                     Ok(pattern) => {
                         let panels = config.pattern.panels;
                         count.off += usize::from(pattern.panels.len().abs_diff(panels) * 100 > 3 * panels);
-                        let rows = limits::excesses(&pattern, &config.pattern.limits, 0.0);
+                        let rows = limits::excesses(&pattern, &config.pattern.limits);
                         count.feasible += usize::from(rows.iter().all(|row| row.excess == 0.0));
                         let angle = rows.iter().find(|row| row.name == "min_angle_deg");
                         worst.push((angle.map_or(0.0, |row| row.excess), tokens));

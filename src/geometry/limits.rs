@@ -18,15 +18,15 @@ pub struct LimitExcess {
     pub excess: f64,
 }
 
-/// All limits of the config on one pattern, kept or not, in the order of the keys. `min_edge_default` (m) counts where the
-/// config gives no `min_edge_m`.
-pub fn excesses(pattern: &Pattern, params: &LimitParams, min_edge_default: f64) -> Vec<LimitExcess> {
+/// All limits of the config on one pattern, kept or not, in the order of the keys. Without `min_edge_m` there is no
+/// shortest member.
+pub fn excesses(pattern: &Pattern, params: &LimitParams) -> Vec<LimitExcess> {
     let lengths = edge_lengths(pattern);
     let shortest = lengths.iter().copied().fold(f64::INFINITY, f64::min);
     let longest = lengths.iter().copied().fold(0.0, f64::max);
     let most = valences(pattern).into_iter().max().unwrap_or(0);
     let mut rows = vec![
-        at_least("min_edge_m", shortest, params.min_edge_m.unwrap_or(min_edge_default)),
+        at_least("min_edge_m", shortest, params.min_edge_m.unwrap_or(0.0)),
         at_most("max_edge_factor", longest / pattern.target_length, params.max_edge_factor),
         at_least("min_angle_deg", smallest_angle(pattern).to_degrees(), params.min_angle_deg),
         at_most("max_valence", most as f64, params.max_valence as f64),
