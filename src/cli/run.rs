@@ -6,7 +6,8 @@ use super::{CliError, Console, exit};
 use quadrille::config::{Config, to_toml};
 use quadrille::output::folder::{Folder, FolderError, Opening, REPORT};
 use quadrille::output::report;
-use quadrille::output::results::{self, Dialect, Run, Sitting};
+use quadrille::output::results::{self, Run, Sitting};
+use quadrille::output::table::Dialect;
 use quadrille::random;
 use quadrille::search::{self, Ended, Outcome, Settings, StopFlag, Store, ThreadServer};
 use quadrille::study::Study;
@@ -75,10 +76,13 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     let dialect = args.csv_dialect.map_or(Dialect::Canonical, |CsvDialect::ExcelEu| Dialect::ExcelEu);
     console.note(&format!("writing {} designs of the front", outcome.front.len()));
     run.write(&folder, &sitting, dialect).map_err(failed)?;
-    write_report(&folder)?;
     drop(store);
     summarise(&study, &outcome, &folder, clock, console);
-    Ok(ExitCode::from(if outcome.front.is_empty() { exit::NOTHING_FEASIBLE } else { exit::DONE }))
+    let code = if outcome.front.is_empty() { exit::NOTHING_FEASIBLE } else { exit::DONE };
+    // The report is made from the folder: no need to hold every design twice.
+    drop(outcome);
+    write_report(&folder)?;
+    Ok(ExitCode::from(code))
 }
 
 impl Args {

@@ -1,9 +1,10 @@
 //! `pareto.csv` and `history.csv`: one row per design (RUN "Results folder").
 
-use super::table::{Cell, Table};
+use super::table::{Cell, Dialect, Table};
 use crate::mesh::canonical::Code;
 use crate::objectives::{self, METRICS};
 use crate::search::EvaluatedRow;
+use std::io::{self, Write};
 
 /// The first columns of both files.
 pub const FIRST: [&str; 6] = ["id", "string", "expressed", "code", "generation", "feasible"];
@@ -87,17 +88,25 @@ pub fn pareto(front: &[&EvaluatedRow], columns: &Columns) -> Table {
     table
 }
 
-/// All evaluated designs, in the given order.
-pub fn history<'a>(rows: impl IntoIterator<Item = &'a EvaluatedRow>, columns: &Columns) -> Table {
-    let mut table = Table::new(columns.header().into_iter().chain(LAST.map(str::to_owned)));
-    for row in rows {
+/// Writes all evaluated designs, in the given order; none of them is kept in memory a second time.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_history(
+    out: &mut dyn Write,
+    dialect: Dialect,
+    rows: &[EvaluatedRow],
+    columns: &Columns,
+) -> io::Result<()> {
+    let header: Vec<String> = columns.header().into_iter().chain(LAST.map(str::to_owned)).collect();
+    let cells = |row: &EvaluatedRow| {
         let mut cells = columns.cells(row);
         cells.push(u64::from(row.violation.stage).into());
         cells.push(row.violation.measure.into());
         cells.push(row.reason.to_string().into());
-        table.rows.push(cells);
-    }
-    table
+        cells
+    };
+    dialect.write(out, &header, rows.iter().map(cells))
 }
 
 #[cfg(test)]
@@ -143,7 +152,9 @@ pub(super) mod tests {
     #[test]
     fn history_says_why() {
         let failed = row(0xabc << 52, "A*", &[], Violation::new(1, 0.25));
-        let text = String::from_utf8(history([&failed], &columns()).to_csv()).unwrap();
+        let mut bytes = Vec::new();
+        write_history(&mut bytes, Dialect::Canonical, &[failed], &columns()).unwrap();
+        let text = String::from_utf8(bytes).unwrap();
         let line = text.lines().nth(1).unwrap();
         assert_eq!(
             line,

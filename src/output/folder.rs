@@ -3,7 +3,7 @@
 use super::atomic;
 use super::manifest::{Manifest, Status};
 use std::fs::{self, File, TryLockError};
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Files of the front as a table.
@@ -167,9 +167,21 @@ impl Folder {
     /// # Errors
     /// [`FolderError::Io`].
     pub fn write(&self, name: impl AsRef<Path>, bytes: &[u8]) -> Result<(), FolderError> {
+        self.write_with(name, |out| out.write_all(bytes))
+    }
+
+    /// As [`Folder::write`], for what is made while it is written.
+    ///
+    /// # Errors
+    /// [`FolderError::Io`].
+    pub fn write_with(
+        &self,
+        name: impl AsRef<Path>,
+        fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), FolderError> {
         let path = self.join(name);
         let made = path.parent().map_or(Ok(()), fs::create_dir_all);
-        made.and_then(|()| atomic::write(&path, bytes)).map_err(|source| FolderError::Io { path, source })
+        made.and_then(|()| atomic::write_with(&path, fill)).map_err(|source| FolderError::Io { path, source })
     }
 }
 

@@ -8,6 +8,8 @@ use crate::evolve::Violation;
 use crate::mesh::canonical::Code;
 use crate::search::{Breeding, EvaluatedRow, GenerationRow};
 use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 /// Why a results folder cannot be read.
@@ -60,16 +62,13 @@ pub fn load(folder: &Path) -> Result<Loaded, LoadError> {
     let config: Config =
         toml::from_str(&manifest.config).map_err(|error| wrong(format!("config: {}", error.message())))?;
     let columns = Columns::of(&config.objectives.minimise);
-    let evaluated = rows(&Sheet::read(folder, HISTORY)?, &columns)?;
+    let evaluated = Sheet::each(folder, HISTORY, |record| row(record, &columns))?;
     let places: BTreeMap<Code, usize> = evaluated.iter().enumerate().map(|(i, row)| (row.code, i)).collect();
-    let sheet = Sheet::read(folder, PARETO)?;
-    let front = rows(&sheet, &columns)?;
-    let place = |(line, row): (usize, &EvaluatedRow)| {
-        let missing = || sheet.wrong(line, format!("{} is not in {HISTORY}", row.code));
-        places.get(&row.code).copied().ok_or_else(missing)
-    };
-    let front = front.iter().enumerate().map(place).collect::<Result<_, _>>()?;
-    let generations = generations(&Sheet::read(folder, GENERATIONS)?, &columns)?;
+    let front = Sheet::each(folder, PARETO, |record| {
+        let code = row(record, &columns)?.code;
+        places.get(&code).copied().ok_or_else(|| record.wrong(format!("{code} is not in {HISTORY}")))
+    })?;
+    let generations = Sheet::each(folder, GENERATIONS, |record| generation(record, &columns))?;
     let config_folder = PathBuf::from(&manifest.config_folder);
     Ok(Loaded { manifest, config, config_folder, evaluated, front, generations })
 }
@@ -82,114 +81,118 @@ pub(super) fn read(path: &Path) -> Result<Vec<u8>, LoadError> {
 pub(super) struct Sheet {
     path: PathBuf,
     columns: BTreeMap<String, usize>,
-    lines: Vec<csv::StringRecord>,
 }
 
 impl Sheet {
-    pub(super) fn read(folder: &Path, name: &str) -> Result<Self, LoadError> {
+    /// What `take` makes of each record below the header; the records themselves are not kept, since a history may be long.
+    pub(super) fn each<T>(
+        folder: &Path,
+        name: &str,
+        take: impl Fn(Record<'_>) -> Result<T, LoadError>,
+    ) -> Result<Vec<T>, LoadError> {
         let path = folder.join(name);
-        let bytes = read(&path)?;
+        let file = File::open(&path).map_err(|source| LoadError::Read { path: path.clone(), source })?;
         let wrong = |error: csv::Error| LoadError::Format { path: path.clone(), message: error.to_string() };
-        let mut reader = csv::Reader::from_reader(bytes.as_slice());
+        let mut reader = csv::Reader::from_reader(BufReader::new(file));
         let header = reader.headers().map_err(wrong)?.clone();
         let columns = header.iter().enumerate().map(|(i, name)| (name.to_owned(), i)).collect();
-        let lines = reader.records().collect::<Result<_, _>>().map_err(wrong)?;
-        Ok(Self { path, columns, lines })
+        let sheet = Self { path: path.clone(), columns };
+        let mut cells = csv::StringRecord::new();
+        let mut taken = Vec::new();
+        while reader.read_record(&mut cells).map_err(wrong)? {
+            taken.push(take(Record { sheet: &sheet, cells: &cells, line: taken.len() + 2 })?);
+        }
+        Ok(taken)
+    }
+}
+
+/// One line of a sheet.
+#[derive(Clone, Copy)]
+pub(super) struct Record<'a> {
+    sheet: &'a Sheet,
+    cells: &'a csv::StringRecord,
+    /// Counted from 1, the header's.
+    line: usize,
+}
+
+impl<'a> Record<'a> {
+    fn wrong(&self, message: String) -> LoadError {
+        LoadError::Format { path: self.sheet.path.clone(), message: format!("line {}: {message}", self.line) }
     }
 
-    /// Number of records below the header.
-    pub(super) fn len(&self) -> usize {
-        self.lines.len()
+    fn text(&self, column: &str) -> Result<&'a str, LoadError> {
+        let missing = || self.wrong(format!("column {column} is missing"));
+        let index = self.sheet.columns.get(column).ok_or_else(missing)?;
+        self.cells.get(*index).ok_or_else(missing)
     }
 
-    /// An error in a record, counted from 0 below the header.
-    fn wrong(&self, record: usize, message: String) -> LoadError {
-        LoadError::Format { path: self.path.clone(), message: format!("line {}: {message}", record + 2) }
-    }
-
-    fn text(&self, record: usize, column: &str) -> Result<&str, LoadError> {
-        let missing = || self.wrong(record, format!("column {column} is missing"));
-        let index = self.columns.get(column).ok_or_else(missing)?;
-        self.lines[record].get(*index).ok_or_else(missing)
-    }
-
-    pub(super) fn parse<T: std::str::FromStr>(&self, record: usize, column: &str) -> Result<T, LoadError> {
-        let text = self.text(record, column)?;
-        text.parse().map_err(|_| self.wrong(record, format!("{column}: found \"{text}\"")))
+    pub(super) fn parse<T: std::str::FromStr>(&self, column: &str) -> Result<T, LoadError> {
+        let text = self.text(column)?;
+        text.parse().map_err(|_| self.wrong(format!("{column}: found \"{text}\"")))
     }
 
     /// A number, or none for an empty cell or a column that is not there.
-    pub(super) fn number(&self, record: usize, column: &str) -> Result<Option<f64>, LoadError> {
-        if !self.columns.contains_key(column) || self.text(record, column)?.is_empty() {
+    pub(super) fn number(&self, column: &str) -> Result<Option<f64>, LoadError> {
+        if !self.sheet.columns.contains_key(column) || self.text(column)?.is_empty() {
             return Ok(None);
         }
-        self.parse(record, column).map(Some)
+        self.parse(column).map(Some)
     }
 
-    fn numbers(&self, record: usize, columns: &[String]) -> Result<Vec<Option<f64>>, LoadError> {
-        columns.iter().map(|column| self.number(record, column)).collect()
+    fn numbers(&self, columns: &[String]) -> Result<Vec<Option<f64>>, LoadError> {
+        columns.iter().map(|column| self.number(column)).collect()
     }
 }
 
-fn rows(sheet: &Sheet, columns: &Columns) -> Result<Vec<EvaluatedRow>, LoadError> {
-    (0..sheet.len()).map(|record| row(sheet, record, columns)).collect()
-}
-
-fn row(sheet: &Sheet, record: usize, columns: &Columns) -> Result<EvaluatedRow, LoadError> {
+fn row(record: Record<'_>, columns: &Columns) -> Result<EvaluatedRow, LoadError> {
     let [_, string, expressed, code, generation, _] = FIRST;
     let [stage, measure, reason] = LAST;
-    let digits = sheet.text(record, code)?;
-    let bits = u64::from_str_radix(digits, 16)
-        .map_err(|_| sheet.wrong(record, format!("code: found \"{digits}\"")))?;
-    let objectives = sheet.numbers(record, &columns.objectives)?;
-    let in_history = sheet.columns.contains_key(stage);
+    let digits = record.text(code)?;
+    let bits =
+        u64::from_str_radix(digits, 16).map_err(|_| record.wrong(format!("code: found \"{digits}\"")))?;
+    let objectives = record.numbers(&columns.objectives)?;
+    let in_history = record.sheet.columns.contains_key(stage);
     let violation = match in_history {
-        true => Violation::new(sheet.parse(record, stage)?, sheet.parse(record, measure)?),
+        true => Violation::new(record.parse(stage)?, record.parse(measure)?),
         false => Violation::NONE,
     };
     Ok(EvaluatedRow {
-        generation: sheet.parse(record, generation)?,
+        generation: record.parse(generation)?,
         slot: 0,
-        tokens: sheet.parse(record, string)?,
-        expressed: sheet.parse(record, expressed)?,
+        tokens: record.parse(string)?,
+        expressed: record.parse(expressed)?,
         code: Code(u128::from(bits) << 64),
         violation,
-        reason: if in_history { sheet.text(record, reason)?.into() } else { "".into() },
+        reason: if in_history { record.text(reason)?.into() } else { "".into() },
         objectives: objectives.into_iter().collect::<Option<Vec<f64>>>().unwrap_or_default().into(),
-        metrics: sheet.numbers(record, &columns.metrics)?.into_iter().collect(),
+        metrics: record.numbers(&columns.metrics)?.into_iter().collect(),
         structural: false,
     })
 }
 
-fn generations(sheet: &Sheet, columns: &Columns) -> Result<Vec<GenerationRow>, LoadError> {
-    let named =
-        |prefix: &str| columns.objectives.iter().map(|name| format!("{prefix}_{name}")).collect::<Vec<_>>();
-    let (best, mean) = (named("best"), named("mean"));
-    let all = |record: usize, columns: &[String]| -> Result<Vec<f64>, LoadError> {
-        Ok(sheet.numbers(record, columns)?.into_iter().collect::<Option<_>>().unwrap_or_default())
+fn generation(record: Record<'_>, columns: &Columns) -> Result<GenerationRow, LoadError> {
+    let all = |prefix: &str| -> Result<Vec<f64>, LoadError> {
+        let named: Vec<String> = columns.objectives.iter().map(|name| format!("{prefix}_{name}")).collect();
+        Ok(record.numbers(&named)?.into_iter().collect::<Option<_>>().unwrap_or_default())
     };
-    (0..sheet.len())
-        .map(|record| {
-            Ok(GenerationRow {
-                generation: sheet.parse(record, "generation")?,
-                evaluations: sheet.parse(record, "evaluations")?,
-                structural: sheet.parse(record, "structural_evaluations")?,
-                feasible: sheet.parse(record, "feasible")?,
-                front: sheet.parse(record, "front_size")?,
-                hypervolume: sheet.number(record, "hypervolume")?,
-                breeding: Breeding {
-                    bred: sheet.parse(record, "bred")?,
-                    duplicates: sheet.parse(record, "duplicates_refused")?,
-                    neighbours: sheet.parse(record, "neighbours_refused")?,
-                    rejected: sheet.parse(record, "rejected_by_topology")?,
-                    cached: sheet.parse(record, "cached")?,
-                    immigrants: sheet.parse(record, "immigrants")?,
-                    empty: sheet.parse(record, "empty_slots")?,
-                    operators: Vec::new(),
-                },
-                best: all(record, &best)?,
-                mean: all(record, &mean)?,
-            })
-        })
-        .collect()
+    Ok(GenerationRow {
+        generation: record.parse("generation")?,
+        evaluations: record.parse("evaluations")?,
+        structural: record.parse("structural_evaluations")?,
+        feasible: record.parse("feasible")?,
+        front: record.parse("front_size")?,
+        hypervolume: record.number("hypervolume")?,
+        breeding: Breeding {
+            bred: record.parse("bred")?,
+            duplicates: record.parse("duplicates_refused")?,
+            neighbours: record.parse("neighbours_refused")?,
+            rejected: record.parse("rejected_by_topology")?,
+            cached: record.parse("cached")?,
+            immigrants: record.parse("immigrants")?,
+            empty: record.parse("empty_slots")?,
+            operators: Vec::new(),
+        },
+        best: all("best")?,
+        mean: all("mean")?,
+    })
 }

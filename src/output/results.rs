@@ -2,7 +2,7 @@
 
 use super::analysed::{Analysed, PanelShapes};
 use super::compas::compas;
-use super::designs::{Columns, history, id, pareto};
+use super::designs::{Columns, id, pareto, write_history};
 use super::explorer::{Column, design_explorer};
 use super::folder::{self, Folder, FolderError, excel_name};
 use super::generations::{generations, operators};
@@ -10,7 +10,7 @@ use super::manifest::{self, Counts, Host, Manifest, Status, timestamp};
 use super::obj::obj;
 use super::polygons::Polygons;
 use super::svg::{Shade, svg};
-use super::table::Table;
+use super::table::{Dialect, Table};
 use crate::config::{self, Config};
 use crate::objectives::METRICS;
 use crate::search::{Ended, EvaluatedRow, Outcome};
@@ -20,17 +20,9 @@ use rayon::prelude::*;
 use serde_json::Value as Json;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
+use std::io::Write;
 use std::path::Path;
 use std::time::SystemTime;
-
-/// Whether tables are written a second time for spreadsheets with decimal commas.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Dialect {
-    /// CSV alone.
-    Canonical,
-    /// And a copy with byte order mark, `;` and decimal commas.
-    ExcelEu,
-}
 
 /// When and with what this part of the run was done.
 #[derive(Clone, Copy, Debug)]
@@ -130,17 +122,23 @@ impl Run<'_> {
 
     fn write_tables(&self, folder: &Folder, dialect: Dialect) -> Result<(), ResultsError> {
         let columns = Columns::of(&self.config.objectives.minimise);
-        let tables: [(&str, Table); 4] = [
+        let Outcome { evaluated, generations: rows, .. } = self.outcome;
+        let tables: [(&str, Table); 3] = [
             (folder::PARETO, pareto(&self.front(), &columns)),
-            (folder::HISTORY, history(&self.outcome.evaluated, &columns)),
-            (folder::GENERATIONS, generations(&self.outcome.generations, &columns.objectives)),
-            (folder::OPERATORS, operators(&self.outcome.generations)),
+            (folder::GENERATIONS, generations(rows, &columns.objectives)),
+            (folder::OPERATORS, operators(rows)),
         ];
-        for (name, table) in &tables {
-            folder.write(name, &table.to_csv())?;
-            if dialect == Dialect::ExcelEu {
-                folder.write(excel_name(name), &table.to_excel_eu())?;
+        let excel = (dialect == Dialect::ExcelEu).then_some(Dialect::ExcelEu);
+        for dialect in [Dialect::Canonical].into_iter().chain(excel) {
+            let named = |name: &str| match dialect {
+                Dialect::Canonical => name.to_owned(),
+                Dialect::ExcelEu => excel_name(name),
+            };
+            for (name, table) in &tables {
+                folder.write(named(name), &table.to_bytes(dialect))?;
             }
+            let history = |out: &mut dyn Write| write_history(out, dialect, evaluated, &columns);
+            folder.write_with(named(folder::HISTORY), history)?;
         }
         Ok(())
     }

@@ -1,6 +1,7 @@
 //! Tables as CSV: RFC 4180 with line feeds, and a copy for a spreadsheet with decimal commas.
 
 use super::number::shortest;
+use std::io::{self, Write};
 
 /// One cell.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,51 +81,71 @@ impl Table {
         Self { columns: columns.into_iter().map(Into::into).collect(), rows: Vec::new() }
     }
 
-    /// UTF-8, comma, decimal point, line feeds, no byte order mark.
-    pub fn to_csv(&self) -> Vec<u8> {
+    /// The table as a file of the given dialect.
+    pub fn to_bytes(&self, dialect: Dialect) -> Vec<u8> {
         let mut out = Vec::new();
-        self.write(&mut out, ',', Cell::text);
+        // Memory takes whatever is written.
+        let _ = dialect.write(&mut out, &self.columns, self.rows.iter().map(Vec::as_slice));
         out
     }
 
-    /// For a spreadsheet in most of Europe: byte order mark, semicolon, decimal comma, CR LF.
-    pub fn to_excel_eu(&self) -> Vec<u8> {
-        let comma = |cell: &Cell| match cell {
-            Cell::Number(_) => cell.text().replace('.', ","),
-            _ => cell.text(),
-        };
-        let mut lines = Vec::new();
-        self.write(&mut lines, ';', comma);
-        let mut out = vec![0xEF, 0xBB, 0xBF];
-        for byte in lines {
-            if byte == b'\n' {
-                out.push(b'\r');
-            }
-            out.push(byte);
-        }
-        out
-    }
-
-    fn write(&self, out: &mut Vec<u8>, separator: char, text: impl Fn(&Cell) -> String) {
-        write_line(out, separator, self.columns.iter().cloned());
-        for row in &self.rows {
-            write_line(out, separator, row.iter().map(&text));
-        }
+    /// As canonical CSV.
+    pub fn to_csv(&self) -> Vec<u8> {
+        self.to_bytes(Dialect::Canonical)
     }
 }
 
-fn write_line(out: &mut Vec<u8>, separator: char, fields: impl Iterator<Item = String>) {
-    let fields: Vec<String> = fields.map(|field| quote(field, separator)).collect();
-    // A lone empty field would look like an empty line, which readers skip.
-    let line =
-        if fields == [""] { "\"\"".to_owned() } else { fields.join(separator.encode_utf8(&mut [0; 4])) };
-    out.extend_from_slice(line.as_bytes());
-    out.push(b'\n');
+/// How a table is written.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Dialect {
+    /// UTF-8, comma, decimal point, line feeds, no byte order mark.
+    Canonical,
+    /// For a spreadsheet in most of Europe: byte order mark, semicolon, decimal comma, CR LF.
+    ExcelEu,
+}
+
+impl Dialect {
+    /// Writes a header and rows, each as it comes: a long table need not be in memory as a whole.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write(
+        self,
+        out: &mut dyn Write,
+        columns: &[String],
+        rows: impl Iterator<Item = impl AsRef<[Cell]>>,
+    ) -> io::Result<()> {
+        if self == Self::ExcelEu {
+            out.write_all(b"\xEF\xBB\xBF")?;
+        }
+        self.write_line(out, columns.iter().cloned())?;
+        rows.into_iter()
+            .try_for_each(|row| self.write_line(out, row.as_ref().iter().map(|cell| self.text(cell))))
+    }
+
+    fn text(self, cell: &Cell) -> String {
+        match (self, cell) {
+            (Self::ExcelEu, Cell::Number(_)) => cell.text().replace('.', ","),
+            _ => cell.text(),
+        }
+    }
+
+    fn write_line(self, out: &mut dyn Write, fields: impl Iterator<Item = String>) -> io::Result<()> {
+        let (separator, end) = match self {
+            Self::Canonical => (",", "\n"),
+            Self::ExcelEu => (";", "\r\n"),
+        };
+        let fields: Vec<String> = fields.map(|field| quote(field, separator)).collect();
+        // A lone empty field would look like an empty line, which readers skip.
+        let line = if fields == [""] { "\"\"".to_owned() } else { fields.join(separator) };
+        out.write_all(line.as_bytes())?;
+        out.write_all(end.as_bytes())
+    }
 }
 
 /// Quotes a field that needs it (RFC 4180 §2.5–2.7).
-fn quote(field: String, separator: char) -> String {
-    if field.contains([separator, '"', '\n', '\r']) {
+fn quote(field: String, separator: &str) -> String {
+    if field.contains(separator) || field.contains(['"', '\n', '\r']) {
         format!("\"{}\"", field.replace('"', "\"\""))
     } else {
         field
@@ -167,7 +188,7 @@ mod tests {
 
     #[test]
     fn excel_eu() {
-        let bytes = table().to_excel_eu();
+        let bytes = table().to_bytes(Dialect::ExcelEu);
         assert_eq!(&bytes[..3], [0xEF, 0xBB, 0xBF]);
         let text = String::from_utf8(bytes[3..].to_vec()).unwrap();
         assert_eq!(

@@ -54,11 +54,12 @@ pub(super) fn utilisation(
     if !folder.join(name).exists() {
         return Ok(Vec::new());
     }
-    let sheet = Sheet::read(folder, name)?;
+    let members: Vec<(u32, u32, Option<f64>)> = Sheet::each(folder, name, |record| {
+        Ok((record.parse("from")?, record.parse("to")?, record.number("utilisation")?))
+    })?;
     let mut of_edge: HashMap<[u32; 2], f64> = HashMap::new();
-    for record in 0..sheet.len() {
-        let (a, b): (u32, u32) = (sheet.parse(record, "from")?, sheet.parse(record, "to")?);
-        if let Some(value) = sheet.number(record, "utilisation")? {
+    for (a, b, value) in members {
+        if let Some(value) = value {
             let largest = of_edge.entry([a.min(b), a.max(b)]).or_insert(value);
             *largest = largest.max(value);
         }
