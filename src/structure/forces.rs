@@ -62,7 +62,8 @@ impl Solver<'_> {
             .collect()
     }
 
-    fn forces_of(&self, m: usize, u: &[f64], axial: Option<f64>, q: &Vector3<f64>) -> MemberForces {
+    /// The same of member `m` alone, given its N and its load.
+    pub fn forces_of(&self, m: usize, u: &[f64], axial: Option<f64>, q: &Vector3<f64>) -> MemberForces {
         let axes = &self.model().axes()[m];
         let slot = self.system().slots()[m];
         let ends = Ends::read(u, slot.start, slot.end).local(axes);
@@ -89,10 +90,17 @@ impl Solver<'_> {
     /// Forces of the members (and held springs there are none) on every node, less the loads: the reactions, global,
     /// six a node in elimination order. On free unknowns it is the residual of equilibrium.
     pub fn reactions(&self, u: &[f64], axial: Option<&[f64]>, f: &[f64]) -> Vec<f64> {
-        let mut minus: Vec<f64> = f.to_vec();
-        self.subtract_forces(u, axial, &mut minus);
-        minus.iter_mut().for_each(|r| *r = -*r);
-        minus
+        let mut reactions = Vec::with_capacity(f.len());
+        self.reactions_into(u, axial, f, &mut reactions);
+        reactions
+    }
+
+    /// The same into a vector that is there already.
+    pub fn reactions_into(&self, u: &[f64], axial: Option<&[f64]>, f: &[f64], reactions: &mut Vec<f64>) {
+        reactions.clear();
+        reactions.extend_from_slice(f);
+        self.subtract_forces(u, axial, reactions);
+        reactions.iter_mut().for_each(|r| *r = -*r);
     }
 }
 

@@ -4,7 +4,8 @@ use super::buckling::{self, Search};
 use super::forces::{MemberForces, Utilisation};
 use super::mechanism::{self, FreeMotion};
 use super::model::{FrameModel, MemberId, NodeId};
-use super::solver::{Combination, Solver, Unstable};
+use super::second_order::Unstable;
+use super::solver::{Combination, Solver};
 use super::system::{DOFS, System, TooLarge};
 use nalgebra::Vector3;
 

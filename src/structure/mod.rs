@@ -15,6 +15,7 @@ pub mod gridshell;
 pub mod mechanism;
 pub mod model;
 pub mod params;
+pub mod second_order;
 pub mod section;
 pub mod solver;
 pub mod system;

@@ -24,19 +24,12 @@ pub struct Solver<'m> {
     sections: Vec<Section>,
     stiffness: Vec<Stiffness>,
     matrix: Vec<f64>,
-    factor: Factor,
-    /// K + s Kg and its factor.
+    /// K + s Kg.
     shifted: Vec<f64>,
-    shifted_factor: Option<Factor>,
-}
-
-/// Why an iteration in second order gave no answer.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Unstable {
-    /// K + Kg is not positive definite.
-    PastCritical,
-    /// The axial forces did not settle.
-    NoConvergence,
+    /// There is room for one factor only: it is by far the largest thing here.
+    factor: Factor,
+    /// Whether the factor is that of K; else it is that of the last K + s Kg.
+    of_stiffness: bool,
 }
 
 impl<'m> Solver<'m> {
@@ -53,8 +46,8 @@ impl<'m> Solver<'m> {
             stiffness: Vec::with_capacity(model.members().len()),
             matrix: vec![0.0; system.values()],
             shifted: Vec::new(),
-            shifted_factor: None,
             factor,
+            of_stiffness: false,
             system,
         })
     }
@@ -87,7 +80,7 @@ impl<'m> Solver<'m> {
         self.sections.clear();
         self.sections.extend_from_slice(sections);
         self.assemble();
-        let factored = self.factor.factorise(&self.system, &self.matrix);
+        let factored = self.refactorise();
         let suspicious = match factored {
             Ok(()) => mechanism::suspicious(&self.system, &self.matrix, &self.factor),
             Err(NotPositive { .. }) => true,
@@ -104,10 +97,7 @@ impl<'m> Solver<'m> {
         ) {
             Some(motion) => Err(motion),
             // The search for a free motion has used the factor's room.
-            None => self
-                .factor
-                .factorise(&self.system, &self.matrix)
-                .map_err(|e| mechanism::named(&self.system, e.unknown)),
+            None => self.refactorise().map_err(|e| mechanism::named(&self.system, e.unknown)),
         }
     }
 
@@ -116,6 +106,7 @@ impl<'m> Solver<'m> {
     /// # Errors
     /// [`NotPositive`].
     pub fn refactorise(&mut self) -> Result<(), NotPositive> {
+        self.of_stiffness = true;
         self.factor.factorise(&self.system, &self.matrix)
     }
 
@@ -171,8 +162,18 @@ impl<'m> Solver<'m> {
         }
     }
 
-    /// Solves K u = f in place, for one or several columns.
+    /// Solves K u = f in place, for one or several columns. If [`Solver::factorise_shifted`] came in between, K is
+    /// factorised once more.
     pub fn solve(&mut self, rhs: &mut [f64]) {
+        if !self.of_stiffness && self.refactorise().is_err() {
+            // It was factorised before, by `set_sections`; without that there is no stiffness and no answer.
+            rhs.fill(f64::NAN);
+            return;
+        }
+        self.solve_as_factorised(rhs);
+    }
+
+    fn solve_as_factorised(&mut self, rhs: &mut [f64]) {
         for column in rhs.chunks_mut(self.system.unknowns()) {
             self.system.hold_vector(column);
         }
@@ -268,102 +269,25 @@ impl<'m> Solver<'m> {
         }
     }
 
-    /// Factorises K + s Kg(N) beside K.
+    /// Factorises K + s Kg(N), in the room of the factor of K.
     ///
     /// # Errors
     /// [`NotPositive`] if it is not positive definite, that is (with N fixed) if s is past the critical factor.
     pub fn factorise_shifted(&mut self, axial: &[f64], s: f64) -> Result<(), NotPositive> {
-        if self.shifted_factor.is_none() {
-            // A factor of the same size as the one we have: if that fitted, running out here is as if not positive.
-            self.shifted_factor = Factor::new(&self.system, COLUMNS).ok();
-        }
-        let Some(factor) = &mut self.shifted_factor else { return Err(NotPositive { unknown: 0 }) };
         self.shifted.clear();
         self.shifted.extend_from_slice(&self.matrix);
         for (m, axes) in self.model.axes().iter().enumerate() {
             self.system.add(&mut self.shifted, m, &element::geometric(axes), s * axial[m]);
         }
         self.system.hold(&mut self.shifted, 1.0);
-        factor.factorise(&self.system, &self.shifted)
+        self.of_stiffness = false;
+        self.factor.factorise(&self.system, &self.shifted)
     }
 
-    /// Solves (K + s Kg) x = rhs in place with the last shifted factor.
+    /// Solves (K + s Kg) x = rhs in place with the factor that [`Solver::factorise_shifted`] made last; with that of K
+    /// if something was solved with K since.
     pub fn solve_shifted(&mut self, rhs: &mut [f64]) {
-        for column in rhs.chunks_mut(self.system.unknowns()) {
-            self.system.hold_vector(column);
-        }
-        if let Some(factor) = &mut self.shifted_factor {
-            factor.solve(&self.system, rhs);
-        }
-    }
-
-    /// Second order with the factor of K alone, for several columns at once: u ← K⁻¹ (f − Kg(N(u)) u), which contracts
-    /// like 1/λ. `u` comes in as the first-order displacements and goes out as those of second order, when neither N
-    /// nor u changes by more than `tolerance` of its largest. Gives false if `most` steps do not settle it.
-    ///
-    /// Settling does not prove that K + Kg is positive definite: motions that the load does not excite are not seen.
-    pub fn iterate_second_order(&mut self, f: &[f64], u: &mut [f64], tolerance: f64, most: usize) -> bool {
-        let n = self.system.unknowns();
-        let (mut axial, mut next) = (Vec::new(), Vec::new());
-        let mut rhs = vec![0.0; f.len()];
-        for _ in 0..most {
-            for ((rhs, f), u) in rhs.chunks_mut(n).zip(f.chunks(n)).zip(u.chunks(n)) {
-                self.axial_forces(u, &mut axial);
-                self.minus_geometric(&axial, u, rhs);
-                rhs.iter_mut().zip(f).for_each(|(r, f)| *r += f);
-            }
-            self.solve(&mut rhs);
-            let mut settled = true;
-            for (new, old) in rhs.chunks(n).zip(u.chunks(n)) {
-                self.axial_forces(old, &mut axial);
-                self.axial_forces(new, &mut next);
-                let still = |new: &[f64], old: &[f64]| {
-                    let largest = new.iter().fold(0.0f64, |a, v| a.max(v.abs()));
-                    let change = new.iter().zip(old).fold(0.0f64, |a, (n, o)| a.max((n - o).abs()));
-                    change <= tolerance * largest
-                };
-                settled &= still(new, old) && still(&next, &axial);
-            }
-            u.copy_from_slice(&rhs);
-            if settled {
-                return u.iter().all(|v| v.is_finite());
-            }
-        }
-        false
-    }
-
-    /// Second order, factor by factor: (K + Kg(N)) u = f with N of u, from the first-order N, until N changes by no
-    /// more than `tolerance` × max |N|.
-    ///
-    /// # Errors
-    /// [`Unstable`] if K + Kg is not positive definite, or N does not settle.
-    pub fn second_order(&mut self, f: &[f64], first: &[f64], tolerance: f64) -> Result<Vec<f64>, Unstable> {
-        const MOST: usize = 200;
-        let mut axial = Vec::new();
-        self.axial_forces(first, &mut axial);
-        let mut next = Vec::new();
-        for _ in 0..MOST {
-            self.factorise_shifted(&axial, 1.0).map_err(|_| Unstable::PastCritical)?;
-            let mut u = f.to_vec();
-            self.solve_shifted(&mut u);
-            let mut residual = f.to_vec();
-            self.subtract_forces(&u, Some(&axial), &mut residual);
-            self.solve_shifted(&mut residual);
-            for (u, correction) in u.iter_mut().zip(&residual) {
-                *u += correction;
-            }
-            self.axial_forces(&u, &mut next);
-            let largest = next.iter().fold(0.0f64, |a, n| a.max(n.abs()));
-            let change = next.iter().zip(&axial).fold(0.0f64, |a, (n, o)| a.max((n - o).abs()));
-            std::mem::swap(&mut axial, &mut next);
-            if change <= tolerance * largest {
-                return match self.factorise_shifted(&axial, 1.0) {
-                    Ok(()) => Ok(u),
-                    Err(_) => Err(Unstable::PastCritical),
-                };
-            }
-        }
-        Err(Unstable::NoConvergence)
+        self.solve_as_factorised(rhs);
     }
 }
 

@@ -1,5 +1,6 @@
 //! A grid shell at one height after another: statics of every combination, buckling, requirements.
 
+use super::metrics::{self, Answer, Metrics};
 use super::model::GridshellModel;
 use super::{AnalysisError, BucklingMode, Certificate, Place, RequirementResult, Response};
 use crate::structure::buckling::{self, Mode, Search};
@@ -8,35 +9,13 @@ use crate::structure::frame::{by_node, silence};
 use crate::structure::mechanism;
 use crate::structure::model::NodeId;
 use crate::structure::params::{HeightParams, Quantity, RequirementParams, StructureParams};
+use crate::structure::second_order::Room;
 use crate::structure::section::Section;
 use crate::structure::solver::{Combination, Solver};
 use nalgebra::Vector3;
 
 /// Residual of the buckling mode at which λ is good to about its square.
 const MODE_TOLERANCE: f64 = 3e-5;
-
-/// The largest values of one combination, and where they are.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Metrics {
-    /// Resultant displacement, m.
-    pub deflection: (f64, Place),
-    /// Vertical displacement, m.
-    pub deflection_vertical: (f64, Place),
-    /// Elastic utilisation outside the excluded zones (member ends only in second order).
-    pub utilisation: (f64, Place),
-    /// The same of all members.
-    pub utilisation_all: (f64, Place),
-    /// Von Mises utilisation outside the excluded zones.
-    pub von_mises: (f64, Place),
-    /// Elastic utilisation outside the excluded zones, extremes between the ends included.
-    pub inner: (f64, Place),
-    /// The same of all members.
-    pub inner_all: (f64, Place),
-    /// Pull on a support, N.
-    pub uplift: (f64, Place),
-    /// Horizontal movement of a supported node, m.
-    pub slide: (f64, Place),
-}
 
 /// All results of one combination, for export.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,14 +39,12 @@ struct State {
     name: String,
     cases: Combination,
     member_loads: Vec<Vector3<f64>>,
-    f: Vec<f64>,
-    u: Vec<f64>,
     first_axial: Vec<f64>,
     axial: Vec<f64>,
     metrics: Option<Metrics>,
     mode: Option<Option<Mode>>,
-    /// Proved: the first buckling factor is greater than this.
-    stable_to: f64,
+    /// Proved: K + Kg of its second order is positive definite.
+    stable: bool,
 }
 
 /// The model with everything that is kept between heights.
@@ -76,6 +53,12 @@ pub struct Evaluator<'a> {
     params: &'a StructureParams,
     solver: Solver<'a>,
     states: Vec<State>,
+    /// Loads and displacements of all combinations, one column after the other.
+    f: Vec<f64>,
+    u: Vec<f64>,
+    first_order: Vec<f64>,
+    room: Room,
+    reactions: Vec<f64>,
     section: Option<Section>,
 }
 
@@ -83,23 +66,33 @@ impl<'a> Evaluator<'a> {
     /// Prepares the analysis of every combination.
     pub fn new(model: &'a GridshellModel, params: &'a StructureParams) -> Result<Self, AnalysisError> {
         let case = |name: &String| params.loads.keys().position(|known| known == name);
-        let states = params
+        let states: Vec<State> = params
             .combinations
             .iter()
             .map(|(name, cases)| State {
                 name: name.clone(),
                 cases: cases.iter().filter_map(|(name, &factor)| Some((case(name)?, factor))).collect(),
                 member_loads: Vec::new(),
-                f: Vec::new(),
-                u: Vec::new(),
                 first_axial: Vec::new(),
                 axial: Vec::new(),
                 metrics: None,
                 mode: None,
-                stable_to: 0.0,
+                stable: false,
             })
             .collect();
-        Ok(Self { solver: Solver::new(&model.frame)?, model, params, states, section: None })
+        let solver = Solver::new(&model.frame)?;
+        Ok(Self {
+            f: vec![0.0; solver.system().unknowns() * states.len()],
+            u: Vec::new(),
+            first_order: Vec::new(),
+            room: Room::default(),
+            reactions: Vec::new(),
+            section: None,
+            solver,
+            model,
+            params,
+            states,
+        })
     }
 
     /// Statics of all combinations with sections of this height.
@@ -113,29 +106,24 @@ impl<'a> Evaluator<'a> {
         self.section = None;
         self.solver.set_sections(&[section])?;
         let n = self.solver.system().unknowns();
-        let mut f = Vec::with_capacity(n * self.states.len());
-        for state in &mut self.states {
+        for (state, f) in self.states.iter_mut().zip(self.f.chunks_mut(n)) {
             self.solver.member_loads(&state.cases, &mut state.member_loads);
-            state.f.resize(n, 0.0);
-            self.solver.load_vector(&state.cases, &state.member_loads, &mut state.f);
-            f.extend_from_slice(&state.f);
-            (state.metrics, state.mode, state.stable_to) = (None, None, 0.0);
+            self.solver.load_vector(&state.cases, &state.member_loads, f);
+            (state.metrics, state.mode, state.stable) = (None, None, self.params.order != 2);
         }
-        let mut u = f.clone();
-        self.solver.solve(&mut u);
-        if u.iter().any(|v| !v.is_finite()) {
+        self.u.clone_from(&self.f);
+        self.solver.solve(&mut self.u);
+        if self.u.iter().any(|v| !v.is_finite()) {
             return Err(AnalysisError::NotFinite("a displacement"));
         }
-        for (state, u) in self.states.iter_mut().zip(u.chunks(n)) {
+        for (state, u) in self.states.iter_mut().zip(self.u.chunks(n)) {
             self.solver.axial_forces(u, &mut state.first_axial);
             silence(&self.solver, u, &mut state.first_axial);
         }
         if self.params.order == 2 {
-            self.second_order(&f, &mut u)?;
+            self.second_order()?;
         }
-        for (state, u) in self.states.iter_mut().zip(u.chunks(n)) {
-            state.u.clear();
-            state.u.extend_from_slice(u);
+        for (state, u) in self.states.iter_mut().zip(self.u.chunks(n)) {
             self.solver.axial_forces(u, &mut state.axial);
         }
         self.section = Some(section);
@@ -144,77 +132,105 @@ impl<'a> Evaluator<'a> {
 
     /// All combinations together with the factor of K; if that does not settle, one by one with factors of K + Kg,
     /// which always tells.
-    fn second_order(&mut self, f: &[f64], u: &mut [f64]) -> Result<(), AnalysisError> {
-        // Enough for λ > 1.5 at the default tolerance.
-        const MOST: usize = 40;
+    fn second_order(&mut self) -> Result<(), AnalysisError> {
         let n = self.solver.system().unknowns();
         let tolerance = self.params.second_order_tolerance;
-        let first = u.to_vec();
-        if self.solver.iterate_second_order(f, u, tolerance, MOST) {
+        self.first_order.clone_from(&self.u);
+        if self.solver.iterate_second_order(&self.f, &mut self.u, tolerance, &mut self.room) {
             return Ok(());
         }
-        for (s, state) in self.states.iter().enumerate() {
+        for s in 0..self.states.len() {
             let columns = s * n..(s + 1) * n;
-            match self.solver.second_order(&state.f, &first[columns.clone()], tolerance) {
-                Ok(found) => u[columns].copy_from_slice(&found),
-                Err(_) => return Err(unstable(&mut self.solver, &state.first_axial, state.name.clone())),
+            match self.solver.second_order(
+                &self.f[columns.clone()],
+                &self.first_order[columns.clone()],
+                tolerance,
+            ) {
+                Ok(found) => self.u[columns].copy_from_slice(&found),
+                Err(_) => return Err(self.unstable(s)),
             }
+            self.states[s].stable = true;
         }
         Ok(())
     }
 
-    /// Makes sure that K + Kg of every combination's second order is positive definite.
+    /// Makes sure that K + Kg(N) of every combination's second order is positive definite: that the answer is a stable
+    /// equilibrium. The factor of K gives way.
     ///
-    /// Free of charge where the axial forces in question are nearly t times the first-order ones of a combination whose
-    /// first buckling factor is known to be well above t; else a Cholesky factorisation.
-    fn prove_stable(&mut self) -> Result<(), AnalysisError> {
-        if self.params.order != 2 {
-            return Ok(());
+    /// Kg grows with N in the sense of quadratic forms (a member's is N times a positive semidefinite matrix), so one
+    /// Cholesky factorisation with the least N that a member has in any combination does for all of them. Only if it
+    /// fails are they told apart.
+    ///
+    /// # Errors
+    /// [`AnalysisError::Unstable`].
+    pub fn prove_stable(&mut self) -> Result<(), AnalysisError> {
+        let doubtful: Vec<usize> = (0..self.states.len()).filter(|&s| !self.states[s].stable).collect();
+        let Some((&first, others)) = doubtful.split_first() else { return Ok(()) };
+        let mut least = self.states[first].axial.clone();
+        for &s in others {
+            least.iter_mut().zip(&self.states[s].axial).for_each(|(least, n)| *least = least.min(*n));
         }
-        for state in &self.states {
-            let known =
-                self.states.iter().any(|other| far_below(&state.axial, &other.first_axial, other.stable_to));
-            if !known && self.solver.factorise_shifted(&state.axial, 1.0).is_err() {
-                return Err(unstable(&mut self.solver, &state.first_axial, state.name.clone()));
+        let together = self.solver.factorise_shifted(&least, 1.0).is_ok();
+        for &s in &doubtful {
+            let several = doubtful.len() > 1;
+            if !together && !(several && self.solver.factorise_shifted(&self.states[s].axial, 1.0).is_ok()) {
+                return Err(self.unstable(s));
             }
+            self.states[s].stable = true;
         }
         Ok(())
     }
 
-    /// Whether every requirement on a buckling factor is met, and every combination is stable: K + limit × Kg is
-    /// positive definite if and only if λ > limit. No eigenvalue is computed.
-    pub fn meets_buckling(&mut self) -> Result<bool, AnalysisError> {
-        for required in &self.params.requirements {
-            if required.quantity != Quantity::BucklingFactor {
-                continue;
-            }
-            let met = match (required.min, self.index_of(&required.combination)) {
-                (Some(least), Some(index)) => {
-                    let state = &mut self.states[index];
-                    let met = self.solver.factorise_shifted(&state.first_axial, least).is_ok();
-                    if met {
-                        state.stable_to = state.stable_to.max(least);
-                    }
-                    met
-                }
-                _ => self.requirement(required)?.excess() <= 0.0,
-            };
-            if !met {
-                return Ok(false);
-            }
+    /// Names what gives way in a combination: the first buckling mode under its first-order axial forces.
+    fn unstable(&mut self, index: usize) -> AnalysisError {
+        let search = Search { modes: 1, tolerance: 1e-4 };
+        let state = &self.states[index];
+        match buckling::modes(&mut self.solver, &state.first_axial, search)
+            .ok()
+            .and_then(|mut modes| modes.pop())
+        {
+            Some(mode) => AnalysisError::Unstable {
+                combination: state.name.clone(),
+                motion: mechanism::largest(self.solver.model(), self.solver.system(), &mode.shape),
+            },
+            None => AnalysisError::NoConvergence("second-order"),
         }
-        Ok(self.prove_stable().is_ok())
     }
 
-    /// The largest share of a limit that is used, of the requirements that statics decide or of all.
-    pub fn used(&mut self, all: bool) -> Result<f64, AnalysisError> {
+    /// The largest share of a limit that is used, of the requirements that statics decide.
+    pub fn used(&mut self) -> Result<f64, AnalysisError> {
+        self.most_used(false)
+    }
+
+    /// The same of the requirements on buckling factors; infinite if a combination is not stable.
+    pub fn used_by_buckling(&mut self) -> Result<f64, AnalysisError> {
+        let used = self.most_used(true)?;
+        match self.prove_stable() {
+            Ok(()) => Ok(used),
+            Err(AnalysisError::Unstable { .. } | AnalysisError::NoConvergence(_)) => Ok(f64::INFINITY),
+            Err(other) => Err(other),
+        }
+    }
+
+    fn most_used(&mut self, by_buckling: bool) -> Result<f64, AnalysisError> {
         let mut used = 0.0f64;
         for required in &self.params.requirements {
-            if all || required.quantity != Quantity::BucklingFactor {
+            if (required.quantity == Quantity::BucklingFactor) == by_buckling {
                 used = used.max(self.requirement(required)?.used());
             }
         }
         Ok(used)
+    }
+
+    fn answer(&self, index: usize) -> Answer<'_> {
+        let n = self.solver.system().unknowns();
+        let state = &self.states[index];
+        Answer {
+            u: &self.u[index * n..(index + 1) * n],
+            f: &self.f[index * n..(index + 1) * n],
+            axial: (self.params.order == 2).then_some(state.axial.as_slice()),
+            member_loads: &state.member_loads,
+        }
     }
 
     /// The largest values of a combination.
@@ -222,55 +238,11 @@ impl<'a> Evaluator<'a> {
         if let Some(metrics) = self.states[index].metrics {
             return metrics;
         }
-        let metrics = self.measure(&self.states[index]);
+        let mut reactions = std::mem::take(&mut self.reactions);
+        let metrics = metrics::measure(self.model, &self.solver, self.answer(index), &mut reactions);
+        self.reactions = reactions;
         self.states[index].metrics = Some(metrics);
         metrics
-    }
-
-    fn second_order_axial(&self, state: &'a State) -> Option<&'a [f64]> {
-        (self.params.order == 2).then_some(state.axial.as_slice())
-    }
-
-    fn measure(&self, state: &State) -> Metrics {
-        let axial = (self.params.order == 2).then_some(state.axial.as_slice());
-        let mut metrics = Metrics::NONE;
-        for n in 0..self.model.frame.nodes().len() as u32 {
-            let first = self.solver.system().first(n);
-            let [x, y, z] = [state.u[first], state.u[first + 1], state.u[first + 2]];
-            raise(&mut metrics.deflection, Vector3::new(x, y, z).norm(), Place::Node(n));
-            raise(&mut metrics.deflection_vertical, z.abs(), Place::Node(n));
-        }
-        let reactions = self.solver.reactions(&state.u, axial, &state.f);
-        for NodeId(n) in self.model.frame.supported() {
-            let first = self.solver.system().first(n);
-            if self.model.frame.fixed()[n as usize][2] {
-                raise(&mut metrics.uplift, -reactions[first + 2], Place::Node(n));
-            }
-            let slide = Vector3::new(state.u[first], state.u[first + 1], 0.0).norm();
-            raise(&mut metrics.slide, slide, Place::Node(n));
-        }
-        for (m, used) in self.utilisations(state).enumerate() {
-            let place = Place::Edge(self.model.edge[m]);
-            let elastic = if self.params.order == 2 { used.ends } else { used.inner };
-            raise(&mut metrics.utilisation_all, elastic, place);
-            raise(&mut metrics.inner_all, used.inner, place);
-            if self.model.counts[m] {
-                raise(&mut metrics.utilisation, elastic, place);
-                raise(&mut metrics.inner, used.inner, place);
-                raise(&mut metrics.von_mises, used.von_mises, place);
-            }
-        }
-        metrics
-    }
-
-    fn utilisations(&self, state: &'a State) -> impl Iterator<Item = Utilisation> {
-        let axial = self.second_order_axial(state);
-        let strength = self.model.frame.material().strength;
-        let section = self.solver.sections()[0];
-        self.solver
-            .member_forces(&state.u, axial, &state.member_loads)
-            .into_iter()
-            .map(move |forces| forces.utilisation(&section, strength))
     }
 
     /// The first buckling mode of a combination.
@@ -283,9 +255,7 @@ impl<'a> Evaluator<'a> {
         let mode = buckling::modes(&mut self.solver, &state.first_axial, search)
             .map_err(|_| AnalysisError::NoConvergence("buckling"))?
             .pop();
-        let state = &mut self.states[index];
-        state.stable_to = mode.as_ref().map_or(f64::INFINITY, |mode| mode.factor);
-        state.mode = Some(mode.clone());
+        self.states[index].mode = Some(mode.clone());
         Ok(mode)
     }
 
@@ -355,9 +325,10 @@ impl<'a> Evaluator<'a> {
         self.statics(height)?;
         let buckling = self.combination_of(Quantity::BucklingFactor);
         self.mode(buckling)?;
-        self.prove_stable()?;
         let requirements: Result<Vec<_>, _> =
             self.params.requirements.iter().map(|r| self.requirement(r)).collect();
+        // Last of what needs a factor: it takes the room of that of K.
+        self.prove_stable()?;
         let deflection = self.combination_of(Quantity::Deflection);
         let uplift = (0..self.states.len()).map(|s| self.metrics(s).uplift.0).fold(0.0, f64::max);
         let metric = |this: &mut Self, quantity| {
@@ -395,7 +366,7 @@ impl<'a> Evaluator<'a> {
         let results = (0..self.states.len())
             .map(|s| {
                 let metrics = self.metrics(s);
-                self.detail(&self.states[s], metrics)
+                self.detail(s, metrics)
             })
             .collect();
         let index = self.combination_of(Quantity::BucklingFactor);
@@ -414,44 +385,21 @@ impl<'a> Evaluator<'a> {
         Ok((results, Some(BucklingMode { combination, factor: mode.factor, shape, certificate })))
     }
 
-    fn detail(&self, state: &State, metrics: Metrics) -> CombinationResult {
-        let axial = (self.params.order == 2).then_some(state.axial.as_slice());
+    fn detail(&self, index: usize, metrics: Metrics) -> CombinationResult {
+        let (state, answer) = (&self.states[index], self.answer(index));
         let nodes = self.model.frame.nodes().len();
-        let pushes = by_node(self.solver.system(), &self.solver.reactions(&state.u, axial, &state.f), nodes);
+        let pushes =
+            by_node(self.solver.system(), &self.solver.reactions(answer.u, answer.axial, answer.f), nodes);
         let fixed = self.model.frame.fixed();
         let held = |n: usize| std::array::from_fn(|d| fixed[n][d].then_some(pushes[n][d]));
         CombinationResult {
             name: state.name.clone(),
             metrics,
-            displacements: by_node(self.solver.system(), &state.u, nodes),
-            member_forces: self.solver.member_forces(&state.u, axial, &state.member_loads),
-            member_utilisation: self.utilisations(state).collect(),
+            displacements: by_node(self.solver.system(), answer.u, nodes),
+            member_forces: self.solver.member_forces(answer.u, answer.axial, answer.member_loads),
+            member_utilisation: metrics::utilisations(self.model, &self.solver, answer).collect(),
             reactions: self.model.frame.supported().map(|node| (node, held(node.0 as usize))).collect(),
         }
-    }
-}
-
-impl Metrics {
-    const NONE: Self = {
-        let none = (0.0, Place::Whole);
-        Self {
-            deflection: none,
-            deflection_vertical: none,
-            utilisation: none,
-            utilisation_all: none,
-            von_mises: none,
-            inner: none,
-            inner_all: none,
-            uplift: none,
-            slide: none,
-        }
-    };
-}
-
-/// Keeps the larger; a NaN stays, to be found by [`check_finite`].
-fn raise(worst: &mut (f64, Place), value: f64, place: Place) {
-    if value > worst.0 || value.is_nan() {
-        *worst = (value, place);
     }
 }
 
@@ -478,30 +426,5 @@ fn check_finite(r: &Response) -> Result<(), AnalysisError> {
         None if !r.buckling_factor.is_nan() => Ok(()),
         None => Err(AnalysisError::NotFinite("the buckling factor")),
         Some((_, name)) => Err(AnalysisError::NotFinite(name)),
-    }
-}
-
-/// Whether axial forces are within a quarter of t times `first`, where 2 t ≤ `stable_to`.
-fn far_below(axial: &[f64], first: &[f64], stable_to: f64) -> bool {
-    let square: f64 = first.iter().map(|n| n * n).sum();
-    let product: f64 = first.iter().zip(axial).map(|(a, b)| a * b).sum();
-    if stable_to <= 0.0 || square <= 0.0 {
-        return axial.iter().all(|&n| n == 0.0);
-    }
-    let t = product / square;
-    let largest = axial.iter().fold(0.0f64, |a, n| a.max(n.abs()));
-    let off = axial.iter().zip(first).fold(0.0f64, |a, (n, first)| a.max((n - t * first).abs()));
-    t >= 0.0 && off <= 0.25 * largest && 2.0 * t <= stable_to
-}
-
-/// Names what gives way: the first buckling mode under the first-order axial forces.
-fn unstable(solver: &mut Solver<'_>, axial: &[f64], combination: String) -> AnalysisError {
-    let search = Search { modes: 1, tolerance: 1e-4 };
-    match buckling::modes(solver, axial, search).ok().and_then(|mut modes| modes.pop()) {
-        Some(mode) => AnalysisError::Unstable {
-            combination,
-            motion: mechanism::largest(solver.model(), solver.system(), &mode.shape),
-        },
-        None => AnalysisError::NoConvergence("second-order"),
     }
 }

@@ -5,11 +5,13 @@
 //! else the one called `sls` (deflections) or `uls` (the others); else the last by name.
 
 mod evaluate;
+mod metrics;
 mod model;
 mod panels;
 mod sizing;
 
-pub use evaluate::{CombinationResult, Metrics};
+pub use evaluate::CombinationResult;
+pub use metrics::Metrics;
 pub use model::GridshellModel;
 
 use super::mechanism::FreeMotion;

@@ -1,8 +1,12 @@
 //! The least section height that meets every requirement.
 //!
-//! A bracket (too low, high enough) is narrowed as in bisection, but cut where the requirements are expected to be
-//! just met: the share of the limit that is used goes nearly with a power of the height, so the cut is found by the
-//! secant on logarithms. Statics decide first; buckling is asked of the height they give, by one factorisation.
+//! A bracket (too low, high enough) is narrowed as in bisection, and ends as narrow; but it is cut where the
+//! requirements are expected to be just met. The share of a limit that is used goes nearly with a power of the height,
+//! so that is where the straight line, then the parabola, through the last points meets 1 on logarithmic paper.
+//!
+//! Cheap requirements come first: the height is found by statics; buckling factor and stability, which cost as much
+//! again, are asked of the height found, where both nearly always hold. Only if they do not is the search repeated
+//! above it with all requirements.
 
 use super::AnalysisError;
 use super::evaluate::Evaluator;
@@ -10,10 +14,13 @@ use crate::structure::params::{HeightParams, StructureParams};
 
 /// Width of the bracket at which the search ends, m: a tenth of a millimetre.
 pub const RESOLUTION: f64 = 1e-4;
-/// Power of the height that a first guess supposes.
-const POWER: f64 = 1.5;
+/// The power of the height that a first guess supposes.
+const POWER: f64 = 1.0;
 /// Every so many cuts one halves the bracket, so that it cannot crawl.
-const HALVE_EVERY: usize = 4;
+const HALVE_EVERY: usize = 5;
+/// While no height is known to be too low, a cut goes no further down than to this share of the last: what is far too
+/// low tells nothing, and takes long to be found unstable.
+const BOLDEST: f64 = 0.6;
 
 /// The height to report: the fixed one, or the least of the range that meets all requirements, or the largest if
 /// none does.
@@ -26,27 +33,36 @@ pub fn height(evaluator: &mut Evaluator<'_>, params: &StructureParams) -> Result
         HeightParams::Sized { min_m, max_m, .. } => (min_m, max_m),
     };
     evaluator.statics(max)?;
-    let used = evaluator.used(false)?;
-    if used > 1.0 || !evaluator.meets_buckling()? {
+    let used = evaluator.used()?;
+    if used > 1.0 {
         return Ok(max);
     }
-    let by_statics = least(evaluator, min, (max, used), false)?;
-    evaluator.statics(by_statics)?;
-    if evaluator.meets_buckling()? {
+    let by_statics = least(min, Point::new(max, used), |height| used_at(evaluator, height, false))?;
+    let used = used_at(evaluator, by_statics, true)?;
+    if used <= 1.0 {
         return Ok(by_statics);
     }
-    evaluator.statics(max)?;
-    let used = evaluator.used(true)?;
-    least(evaluator, by_statics, (max, used), true)
+    let used_by_max = used_at(evaluator, max, true)?;
+    if used_by_max > 1.0 || by_statics >= max {
+        return Ok(max);
+    }
+    let mut bracket = Bracket::new(by_statics, Point::new(max, used_by_max));
+    bracket.add(Point::new(by_statics, used));
+    bracket.narrow(|height| used_at(evaluator, height, true))
 }
 
-/// A height and the share of the limits used there.
-type Point = (f64, f64);
-
-/// The share used at a height; infinite where the structure does not stand.
+/// The share of the limits used at a height; infinite where the structure does not stand.
 fn used_at(evaluator: &mut Evaluator<'_>, height: f64, all: bool) -> Result<f64, AnalysisError> {
-    let used = evaluator.statics(height).and_then(|()| evaluator.used(all));
-    match used {
+    let mut used = || {
+        evaluator.statics(height)?;
+        let by_statics = evaluator.used()?;
+        if all && by_statics <= 1.0 {
+            Ok(by_statics.max(evaluator.used_by_buckling()?))
+        } else {
+            Ok(by_statics)
+        }
+    };
+    match used() {
         Err(
             AnalysisError::Unstable { .. } | AnalysisError::Mechanism(_) | AnalysisError::NoConvergence(_),
         ) => Ok(f64::INFINITY),
@@ -55,58 +71,125 @@ fn used_at(evaluator: &mut Evaluator<'_>, height: f64, all: bool) -> Result<f64,
 }
 
 /// The least height from `min` on that uses at most all of the limits, within [`RESOLUTION`]; `high` does.
-fn least(evaluator: &mut Evaluator<'_>, min: f64, high: Point, all: bool) -> Result<f64, AnalysisError> {
-    // `low` is not known to be too low until something was found to be; then `low.1` > 1.
-    let mut low: Point = (min, f64::NAN);
-    let mut high = high;
-    let mut previous: Option<Point> = None;
-    for cut in 1.. {
-        if high.0 - low.0 <= RESOLUTION && (low.1 > 1.0 || high.0 <= min) {
-            break;
-        }
-        let height = next_cut(low, high, previous, cut, min);
-        let used = used_at(evaluator, height, all)?;
-        previous = Some((height, used));
-        if used > 1.0 {
-            low = (height, used);
-        } else {
-            high = (height, used);
-        }
-    }
-    Ok(high.0)
+fn least(
+    min: f64,
+    high: Point,
+    used: impl FnMut(f64) -> Result<f64, AnalysisError>,
+) -> Result<f64, AnalysisError> {
+    Bracket::new(min, high).narrow(used)
 }
 
-/// Where to cut the bracket next.
-fn next_cut(low: Point, high: Point, previous: Option<Point>, cut: usize, min: f64) -> f64 {
-    let bracketed = low.1 > 1.0;
-    let expected = match previous {
-        // The first guess: from the largest height by the usual power.
-        None => high.0 * high.1.powf(1.0 / POWER),
-        Some(_) if bracketed && low.1.is_finite() && high.1 > 0.0 => {
-            let (a, b) = (low.0.ln(), high.0.ln());
-            (a + (b - a) * low.1.ln() / (low.1.ln() - high.1.ln())).exp()
-        }
-        Some(_) if bracketed => 0.5 * (low.0 + high.0),
-        // Still high enough: go on by the power.
-        Some(_) => high.0 * high.1.powf(1.0 / POWER),
-    };
-    if !bracketed {
-        // `min` itself is worth asking only if the guess comes near it.
-        return if expected <= min + RESOLUTION || high.0 - min <= RESOLUTION {
-            min
-        } else if expected < high.0 - 0.5 * RESOLUTION {
-            expected
+/// A height and the share of the limits used there.
+#[derive(Clone, Copy, Debug)]
+struct Point {
+    height: f64,
+    used: f64,
+}
+
+impl Point {
+    fn new(height: f64, used: f64) -> Self {
+        Self { height, used }
+    }
+
+    fn is_drawn(self) -> bool {
+        self.used > 0.0 && self.used.is_finite()
+    }
+}
+
+/// What is known of where the least height is.
+#[derive(Debug)]
+struct Bracket {
+    /// Nothing below is asked.
+    min: f64,
+    /// The highest that is too low, once one is known.
+    low: Option<Point>,
+    /// The lowest that is high enough.
+    high: Point,
+    /// The last points that can be drawn on logarithmic paper, the latest first.
+    last: [Option<Point>; 3],
+}
+
+impl Bracket {
+    fn new(min: f64, high: Point) -> Self {
+        Self { min, low: None, high, last: [Some(high).filter(|p| p.is_drawn()), None, None] }
+    }
+
+    fn add(&mut self, point: Point) {
+        if point.used > 1.0 {
+            self.low = Some(point);
         } else {
-            0.5 * (min + high.0)
+            self.high = point;
+        }
+        if point.is_drawn() {
+            self.last = [Some(point), self.last[0], self.last[1]];
+        }
+    }
+
+    fn is_narrow(&self) -> bool {
+        match self.low {
+            Some(low) => self.high.height - low.height <= RESOLUTION,
+            None => self.high.height <= self.min,
+        }
+    }
+
+    fn narrow(
+        mut self,
+        mut used: impl FnMut(f64) -> Result<f64, AnalysisError>,
+    ) -> Result<f64, AnalysisError> {
+        for cut in 1.. {
+            if self.is_narrow() {
+                break;
+            }
+            let height = self.next_cut(cut);
+            self.add(Point::new(height, used(height)?));
+        }
+        Ok(self.high.height)
+    }
+
+    /// Where to cut the bracket next.
+    fn next_cut(&self, cut: usize) -> f64 {
+        let bottom = self.low.map_or(self.min, |low| low.height);
+        let halved = 0.5 * (bottom + self.high.height);
+        let expected = if cut.is_multiple_of(HALVE_EVERY) { None } else { self.expected() };
+        let Some(low) = self.low else {
+            let high = self.high.height;
+            let height = expected.unwrap_or(halved).max(BOLDEST * high).min(high - 0.5 * RESOLUTION);
+            // `min` itself is worth asking only if the guess comes near it.
+            return if height <= self.min + RESOLUTION { self.min } else { height };
         };
+        let Some(expected) = expected else { return halved };
+        // Where both ends come to lie within the resolution: first the low end, a little below the expected root,
+        // then the high end, so that the last height analysed is the one that is reported.
+        let margin = 0.3 * RESOLUTION;
+        let height = if expected - low.height < 0.6 * RESOLUTION {
+            low.height + 0.95 * RESOLUTION
+        } else if self.high.height - expected < 0.6 * RESOLUTION {
+            self.high.height - 0.95 * RESOLUTION
+        } else {
+            expected - margin
+        };
+        height.clamp(low.height + 0.25 * margin, self.high.height - 0.25 * margin)
     }
-    if cut.is_multiple_of(HALVE_EVERY) || !expected.is_finite() {
-        return 0.5 * (low.0 + high.0);
+
+    /// Where the limits are expected to be just used; none if nothing can be expected, or not inside the bracket.
+    fn expected(&self) -> Option<f64> {
+        let drawn = |point: Option<Point>| point.map(|p| (p.height.ln(), p.used.ln()));
+        let [latest, before, third] = self.last.map(drawn);
+        let (x1, y1) = latest?;
+        let Some((x2, y2)) = before else { return self.inside(x1 + y1 / POWER) };
+        let line = |(xa, ya): (f64, f64), (xb, yb): (f64, f64)| xa - ya * (xb - xa) / (yb - ya);
+        let straight = line((x1, y1), (x2, y2));
+        // Neville's scheme for x(y) at y = 0: the parabola through three points.
+        let curved = third.map(|(x3, y3)| {
+            let (a, b) = (straight, line((x2, y2), (x3, y3)));
+            (b * y1 - a * y3) / (y1 - y3)
+        });
+        curved.and_then(|x| self.inside(x)).or_else(|| self.inside(straight))
     }
-    // A little beyond the expected root, on the side that was not met last, so that the bracket closes from both.
-    let beyond = 0.4 * RESOLUTION;
-    let last_too_low = previous.is_some_and(|p| p.1 > 1.0);
-    let height = if last_too_low { expected + beyond } else { expected - beyond };
-    let margin = 0.25 * RESOLUTION;
-    height.clamp(low.0 + margin, high.0 - margin)
+
+    fn inside(&self, logarithm: f64) -> Option<f64> {
+        let height = logarithm.exp();
+        let above = self.low.is_none_or(|low| height > low.height);
+        (height.is_finite() && above && height < self.high.height).then_some(height)
+    }
 }
