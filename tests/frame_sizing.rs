@@ -33,7 +33,7 @@ fn roof(seed: u32) -> (Pattern, StructureParams) {
         _ => rise * (x * x - y * y),
     });
     let mut params: StructureParams = serde_json::from_str("{}").unwrap();
-    params.order = 1 + (seed % 4 != 0) as u8;
+    params.order = if seed.is_multiple_of(4) { 1 } else { 2 };
     params.requirements[0].max = Some(between(0.02, 0.3));
     params.requirements[1].max = Some(between(0.3, 1.5));
     params.requirements[2].min = Some(between(2.0, 40.0));

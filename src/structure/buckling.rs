@@ -45,6 +45,9 @@ const EASE_EVERY: usize = 6;
 const EASED: f64 = 1e-4;
 /// Share of a squared norm left by orthogonalisation, below which it is done again.
 const CANCELLED: f64 = 1e-3;
+/// Orthogonality fades only as Ritz vectors settle (Paige 1971): to rounding over the residual. While no residual is
+/// below this, that is nothing, and a new block need only be made orthogonal to the last two.
+const LOCAL: f64 = 1e-6;
 
 /// The first modes, λ ascending, at most `search.modes`; fewer if there are no more positive factors.
 ///
@@ -121,6 +124,8 @@ struct Lanczos<'a, 'm> {
     w: Columns,
     t: DMatrix<f64>,
     rng: random::Rng,
+    /// Whether a new block is made orthogonal to the last two only.
+    local: bool,
 }
 
 /// Eigenpairs of T, ν descending.
@@ -140,6 +145,7 @@ impl<'a, 'm> Lanczos<'a, 'm> {
             w: Columns::new(n),
             t: DMatrix::zeros(0, 0),
             rng: random::stream(0x6275_636b, 0, 0),
+            local: search.tolerance > LOCAL,
             solver,
             axial,
             search,
@@ -161,6 +167,7 @@ impl<'a, 'm> Lanczos<'a, 'm> {
                 (x, mx) = (z, g);
                 if x.count() == 0 {
                     // The space is exhausted; look for what it missed.
+                    self.local = false;
                     (x, mx) = self.random_block();
                     if x.count() == 0 {
                         return Ok(self.shapes(&ritz));
@@ -189,11 +196,9 @@ impl<'a, 'm> Lanczos<'a, 'm> {
     }
 
     fn orthogonalise(&self, z: &mut Columns, g: &mut Columns) {
-        if self.v.count() > 0 {
-            let c = self.w.inner(z);
-            z.subtract(&self.v, &c);
-            g.subtract(&self.w, &c);
-        }
+        let c = self.w.inner_from(0, z);
+        z.subtract(&self.v, 0, &c);
+        g.subtract(&self.w, 0, &c);
     }
 
     /// Appends the block, and gives the next one with its M-product, and R with (what was left over) = next × R.
@@ -204,25 +209,27 @@ impl<'a, 'm> Lanczos<'a, 'm> {
         self.solver.minus_geometric(self.axial, &x.data, &mut g.data);
         self.v.data.extend_from_slice(&x.data);
         self.w.data.extend_from_slice(&mx.data);
-        let column = self.v.inner(&g);
+        // T is block tridiagonal until a restart: coefficients of blocks before the last two are zero.
+        let from = if self.local { before.saturating_sub(self.block) } else { 0 };
+        let column = self.v.inner_from(from, &g);
         let size = before + added;
         let mut t = DMatrix::zeros(size, size);
         t.view_mut((0, 0), (before, before)).copy_from(&self.t);
         for j in 0..added {
-            for i in 0..size {
-                t[(i, before + j)] = column[(i, j)];
-                t[(before + j, i)] = column[(i, j)];
+            for i in from..size {
+                t[(i, before + j)] = column[(i - from, j)];
+                t[(before + j, i)] = column[(i - from, j)];
             }
         }
         self.t = t;
         let mut z = Columns { n: g.n, data: g.data.clone() };
         self.solver.solve(&mut z.data);
-        let before = squares(&z, &g);
-        z.subtract(&self.v, &column);
-        g.subtract(&self.w, &column);
+        let whole = squares(&z, &g);
+        z.subtract(&self.v, from, &column);
+        g.subtract(&self.w, from, &column);
         // Once is enough unless most of the block was cancelled (Daniel, Gragg, Kaufman, Stewart 1976).
         let kept = squares(&z, &g);
-        if kept.iter().zip(&before).any(|(kept, before)| *kept < CANCELLED * before) {
+        if kept.iter().zip(&whole).any(|(kept, whole)| *kept < CANCELLED * whole) {
             self.orthogonalise(&mut z, &mut g);
         }
         let remainder = orthonormalise(&mut z, &mut g);
@@ -268,6 +275,7 @@ impl<'a, 'm> Lanczos<'a, 'm> {
 
     /// Keeps the best Ritz vectors.
     fn restart(&mut self) {
+        self.local = false;
         let ritz = self.ritz();
         let keep = (self.most / 3).max(self.search.modes + 2).min(self.v.count());
         let s = ritz.vectors.columns(0, keep).into_owned();
@@ -285,7 +293,7 @@ fn squares(z: &Columns, g: &Columns) -> Vec<f64> {
 
 /// Makes Z M-orthonormal (G = M Z), dropping what is not independent; Z before = Z after × the matrix returned.
 fn orthonormalise(z: &mut Columns, g: &mut Columns) -> DMatrix<f64> {
-    let gram = z.inner(g);
+    let gram = z.inner_from(0, g);
     let gram = (&gram + gram.transpose()) * 0.5;
     let eigen = SymmetricEigen::new(gram);
     let largest = eigen.eigenvalues.amax();

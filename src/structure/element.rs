@@ -130,8 +130,10 @@ pub struct Ends {
 impl Ends {
     /// Reads an element's ends from a vector of unknowns, given where the two nodes' six begin.
     pub fn read(u: &[f64], start: usize, end: usize) -> Self {
-        let at = |i: usize| Vector3::new(u[i], u[i + 1], u[i + 2]);
-        Self { shift: at(start) - at(end), r1: at(start + 3), r2: at(end + 3) }
+        // Slices of six, so that the bounds are checked twice and not twelve times.
+        let (u1, u2) = (&u[start..start + 6], &u[end..end + 6]);
+        let at = |u: &[f64], i: usize| Vector3::new(u[i], u[i + 1], u[i + 2]);
+        Self { shift: at(u1, 0) - at(u2, 0), r1: at(u1, 3), r2: at(u2, 3) }
     }
 
     /// The same in local axes.
@@ -196,15 +198,17 @@ impl Stiffness {
 }
 
 /// End forces of the geometric stiffness for `tension` N; the same in local and in global axes.
+#[inline]
 pub fn geometric_actions(x: &Vector3<f64>, length: f64, tension: f64, e: &Ends) -> EndActions {
     let across = |v: Vector3<f64>| v - x * x.dot(&v);
     let turn = e.r1 + e.r2;
-    let (r1, r2) = (across(e.r1), across(e.r2));
-    let shared = x.cross(&e.shift) * 0.1;
+    let tenth = 0.1 * tension;
+    let (near, far) = (tension * length * (2.0 / 15.0), tension * length * (-1.0 / 30.0));
+    let shared = x.cross(&e.shift) * tenth;
     EndActions {
-        force: (across(e.shift) * (1.2 / length) - x.cross(&turn) * 0.1) * tension,
-        m1: (shared + r1 * (2.0 * length / 15.0) - r2 * (length / 30.0)) * tension,
-        m2: (shared + r2 * (2.0 * length / 15.0) - r1 * (length / 30.0)) * tension,
+        force: across(e.shift) * (1.2 * tension / length) - x.cross(&turn) * tenth,
+        m1: shared + across(e.r1 * near + e.r2 * far),
+        m2: shared + across(e.r2 * near + e.r1 * far),
     }
 }
 

@@ -1,11 +1,12 @@
 //! Cholesky factors of matrices with a [`System`]'s sparsity. Buffers are reused; nothing is allocated per factor.
 
 use super::system::{System, TooLarge};
+use super::triangular;
+use faer::Par;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltError;
 use faer::sparse::SparseColMatRef;
 use faer::sparse::linalg::cholesky::supernodal::{self, SupernodalLltRef};
-use faer::{Conj, MatMut, Par};
 
 /// The matrix is not positive definite; the pivot of this unknown was the first that was not positive.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -18,27 +19,27 @@ pub struct NotPositive {
 pub struct Factor {
     values: Vec<f64>,
     memory: MemBuffer,
-    columns: usize,
+    /// Of a solve.
+    room: Vec<f64>,
 }
 
 impl Factor {
-    /// Room for factors of the system, and to solve for up to `columns` right-hand sides at once.
+    /// Room for factors of the system.
     ///
     /// # Errors
     /// [`TooLarge`].
-    pub fn new(system: &System, columns: usize) -> Result<Self, TooLarge> {
+    pub fn new(system: &System) -> Result<Self, TooLarge> {
         let symbolic = system.symbolic();
         let scratch = supernodal::factorize_supernodal_numeric_llt_scratch::<u32, f64>(
             symbolic,
             Par::Seq,
             Default::default(),
-        )
-        .or(symbolic.solve_in_place_scratch::<f64>(columns, Par::Seq));
+        );
         let memory = MemBuffer::try_new(scratch).map_err(|_| TooLarge)?;
         let mut values = Vec::new();
         values.try_reserve_exact(symbolic.len_val()).map_err(|_| TooLarge)?;
         values.resize(symbolic.len_val(), 0.0);
-        Ok(Self { values, memory, columns })
+        Ok(Self { values, memory, room: Vec::new() })
     }
 
     /// Factorises the matrix with these values.
@@ -64,13 +65,7 @@ impl Factor {
 
     /// Solves in place for the columns of `rhs`, each `system.unknowns()` long.
     pub fn solve(&mut self, system: &System, rhs: &mut [f64]) {
-        let n = system.unknowns();
-        let factor = SupernodalLltRef::new(system.symbolic(), &self.values);
-        for chunk in rhs.chunks_mut(n * self.columns) {
-            let columns = chunk.len() / n;
-            let matrix = MatMut::from_column_major_slice_mut(chunk, n, columns);
-            factor.solve_in_place_with_conj(Conj::No, matrix, Par::Seq, MemStack::new(&mut self.memory));
-        }
+        triangular::solve(system.symbolic(), &self.values, rhs, &mut self.room);
     }
 
     /// Calls `f(unknown, pivot)` with the squared diagonal entry of L for each unknown.

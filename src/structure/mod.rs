@@ -17,8 +17,10 @@ pub mod model;
 pub mod params;
 pub mod second_order;
 pub mod section;
+mod simd;
 pub mod solver;
 pub mod system;
+mod triangular;
 mod validate;
 
 pub use frame::{FrameAnalysis, FrameError, FrameResult, frame};

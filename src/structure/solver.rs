@@ -11,9 +11,6 @@ use super::section::Section;
 use super::system::{DOFS, System, TooLarge};
 use nalgebra::Vector3;
 
-/// How many right-hand sides are solved together.
-pub const COLUMNS: usize = 8;
-
 /// A load combination: load case by index, times a factor.
 pub type Combination = Vec<(usize, f64)>;
 
@@ -39,7 +36,7 @@ impl<'m> Solver<'m> {
     /// [`TooLarge`].
     pub fn new(model: &'m FrameModel) -> Result<Self, TooLarge> {
         let system = System::new(model)?;
-        let factor = Factor::new(&system, COLUMNS)?;
+        let factor = Factor::new(&system)?;
         Ok(Self {
             model,
             sections: Vec::new(),
@@ -293,10 +290,13 @@ impl<'m> Solver<'m> {
 
 /// Adds `factor` × an element's end actions to a vector.
 fn scatter(actions: &EndActions, start: usize, end: usize, factor: f64, y: &mut [f64]) {
-    for d in 0..3 {
-        y[start + d] += factor * actions.force[d];
-        y[end + d] -= factor * actions.force[d];
-        y[start + 3 + d] += factor * actions.m1[d];
-        y[end + 3 + d] += factor * actions.m2[d];
-    }
+    let mut add = |at: usize, force_sign: f64, moment: &Vector3<f64>| {
+        let node = &mut y[at..at + DOFS];
+        for d in 0..3 {
+            node[d] += force_sign * actions.force[d];
+            node[d + 3] += factor * moment[d];
+        }
+    };
+    add(start, factor, &actions.m1);
+    add(end, -factor, &actions.m2);
 }

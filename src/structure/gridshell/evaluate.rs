@@ -172,8 +172,9 @@ impl<'a> Evaluator<'a> {
         }
         let together = self.solver.factorise_shifted(&least, 1.0).is_ok();
         for &s in &doubtful {
-            let several = doubtful.len() > 1;
-            if !together && !(several && self.solver.factorise_shifted(&self.states[s].axial, 1.0).is_ok()) {
+            let stable = together
+                || (!others.is_empty() && self.solver.factorise_shifted(&self.states[s].axial, 1.0).is_ok());
+            if !stable {
                 return Err(self.unstable(s));
             }
             self.states[s].stable = true;
