@@ -115,3 +115,16 @@ kind = "plane"
         "domain.symmetries: structure.support fixes [ux, uz] on loop 1 and [uz] on loop 2, its image"
     );
 }
+
+/// Linear solves alone crowd panels against the holes: angles of 2° and edges of 2 % of the target length.
+#[test]
+fn between_several_holes_panels_are_not_crowded() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/fold_study/three_holes.toml");
+    let config = config::load(&file, &[]).unwrap();
+    let study = Study::new(&config, config::folder_of(&file)).unwrap();
+    let design = study.develop(study.topology(&"".parse().unwrap()), Effort::Pattern).unwrap();
+    let excess: Vec<_> = design.limits.iter().filter(|limit| limit.excess > 0.0).collect();
+    assert!(excess.is_empty(), "{excess:?}");
+    let shortest = design.fabrication.edge_min / design.pattern.target_length;
+    assert!(shortest > 0.15, "the shortest edge is {shortest} of the target length");
+}

@@ -18,6 +18,10 @@ const MEMORY: usize = 6;
 const MAX_HALVINGS: usize = 30;
 /// A corner with at least this share of a square's determinant is unfolded well enough.
 const ENOUGH: f64 = 1e-3;
+/// Smallest ε.
+const LEAST_EPSILON: f64 = 1e-4;
+/// Steps of evening out.
+const EVENING_STEPS: usize = 8;
 
 /// A plan point, m.
 pub type Point = [f64; 2];
@@ -110,8 +114,15 @@ pub fn untangle(plan: &mut [Point], corners: &Corners, edges: &[[u32; 2]], is_fi
         if least > ENOUGH || least.is_nan() {
             return;
         }
-        let epsilon = (1e-8 + 0.04 * least.min(0.0) * least.min(0.0)).sqrt();
-        descend(plan, corners, &laplacian, is_fixed, size, epsilon);
+        let epsilon = (LEAST_EPSILON * LEAST_EPSILON + 0.04 * least.min(0.0) * least.min(0.0)).sqrt();
+        descend(plan, corners, &laplacian, is_fixed, size, epsilon, STEPS);
+    }
+}
+
+/// A few steps more down the same energy, where no corner is folded: panels come nearer to squares of edge length `size`.
+pub fn even_out(plan: &mut [Point], corners: &Corners, edges: &[[u32; 2]], is_fixed: &[bool], size: f64) {
+    if let Some(laplacian) = Laplacian::new(edges, Weights::Equal, is_fixed) {
+        descend(plan, corners, &laplacian, is_fixed, size, LEAST_EPSILON, EVENING_STEPS);
     }
 }
 
@@ -130,6 +141,7 @@ fn descend(
     is_fixed: &[bool],
     size: f64,
     epsilon: f64,
+    steps: usize,
 ) {
     let n = plan.len();
     let mut gradient = vec![[0.0; 2]; n];
@@ -138,7 +150,7 @@ fn descend(
     let mut next_gradient = gradient.clone();
     let mut next = plan.to_vec();
     let mut pairs: Vec<Pair> = Vec::new();
-    for _ in 0..STEPS {
+    for _ in 0..steps {
         let direction = direction(&gradient, &pairs, laplacian);
         let slope = inner(&direction, &gradient);
         if slope.is_nan() || slope >= 0.0 {

@@ -9,7 +9,7 @@ use super::dense::{Dense, Edges};
 use super::laplacian::{Laplacian, Weights};
 use super::pattern::Panel;
 use super::rejection::Rejection;
-use super::untangle::{Corners, untangle};
+use super::untangle::{Corners, even_out, untangle};
 use crate::domain::{BoundaryLoop as Curve, Domain};
 use crate::surface::{Surface, SurfaceKind};
 
@@ -35,7 +35,7 @@ pub struct Placed {
 /// What placing does with corners that the linear solves leave folded.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Folds {
-    /// Leaves them: relaxing turns nearly all of them over, and ends more evenly from there.
+    /// Leaves them: relaxing turns nearly all of them over, and ends more evenly from there. Not so between several holes.
     Leave,
     /// Turns them over before anything else.
     Unfold,
@@ -55,8 +55,11 @@ pub fn place(
 ) -> Result<Placed, Rejection> {
     let failed = Rejection::NotFinite { stage: "placing" };
     let mut shape = in_plan(domain, dense, edges, loops).ok_or_else(|| failed.clone())?;
-    if folds == Folds::Unfold {
-        unfold(&mut shape, domain, dense, edges);
+    // Between several holes the linear solves crowd panels against them, which relaxing would take long to spread: strips would be
+    // measured too short. A free form is in balance as it is.
+    let is_crowded = domain.loops.len() > 2 && surface.kind() != SurfaceKind::Free;
+    if folds == Folds::Unfold || is_crowded {
+        unfold(&mut shape, domain, dense, edges, is_crowded);
     }
     let positions =
         lift(domain, surface, edges, loops, shape.plan, &shape.along).ok_or_else(|| failed.clone())?;
@@ -67,15 +70,19 @@ pub fn place(
     }
 }
 
-/// Turns folded corners over where the linear solves left some.
-fn unfold(shape: &mut Shape, domain: &Domain, dense: &Dense, edges: &Edges) {
+/// Turns folded corners over where the linear solves left some, and evens the pattern out if asked for.
+fn unfold(shape: &mut Shape, domain: &Domain, dense: &Dense, edges: &Edges, evened: bool) {
     let mut is_fixed = vec![false; dense.vertex_count];
     for &v in dense.loops.iter().flatten() {
         is_fixed[v as usize] = true;
     }
     let quads: Vec<[u32; 4]> = dense.panels.iter().map(Panel::as_quad).collect();
     let size = (domain.area() / quads.len() as f64).sqrt();
-    untangle(&mut shape.plan, &Corners::of(&quads, &is_fixed), &edges.list, &is_fixed, size);
+    let corners = Corners::of(&quads, &is_fixed);
+    untangle(&mut shape.plan, &corners, &edges.list, &is_fixed, size);
+    if evened {
+        even_out(&mut shape.plan, &corners, &edges.list, &is_fixed, size);
+    }
 }
 
 fn in_plan(domain: &Domain, dense: &Dense, edges: &Edges, loops: &[BoundaryLoop]) -> Option<Shape> {
