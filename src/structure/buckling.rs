@@ -10,6 +10,7 @@ use super::columns::Columns;
 use super::solver::Solver;
 use crate::random;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use nalgebra_sparse::CscMatrix;
 
 /// A buckling mode.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,26 +63,16 @@ pub fn modes(solver: &mut Solver<'_>, axial: &[f64], search: Search) -> Result<V
 }
 
 /// All modes of a small model: L⁻¹ (−Kg) L⁻ᵀ with K = L Lᵀ.
-fn dense(solver: &mut Solver<'_>, axial: &[f64], modes: usize) -> Result<Vec<Mode>, NoConvergence> {
+fn dense(solver: &Solver<'_>, axial: &[f64], modes: usize) -> Result<Vec<Mode>, NoConvergence> {
     let n = solver.system().unknowns();
     let free: Vec<usize> = (0..n).filter(|&i| !solver.system().held()[i]).collect();
     let m = free.len();
-    // Columns of −Kg and then K⁻¹ by unit vectors would square the condition; take K itself.
-    let (mut k, mut g) = (DMatrix::zeros(m, m), DMatrix::zeros(m, m));
-    let (mut unit, mut column) = (vec![0.0; n], vec![0.0; n]);
-    for (j, &at) in free.iter().enumerate() {
-        unit[at] = 1.0;
-        solver.minus_geometric(axial, &unit, &mut column);
-        for (i, &row) in free.iter().enumerate() {
-            g[(i, j)] = column[row];
-        }
-        column.fill(0.0);
-        solver.subtract_forces(&unit, None, &mut column);
-        for (i, &row) in free.iter().enumerate() {
-            k[(i, j)] = -column[row];
-        }
-        unit[at] = 0.0;
-    }
+    let of_free = |matrix: CscMatrix<f64>| {
+        let whole = DMatrix::from(&matrix);
+        whole.select_columns(&free).select_rows(&free)
+    };
+    let mut k = of_free(solver.stiffness_matrix());
+    let mut g = -of_free(solver.geometric_matrix(axial));
     // Scaled to unit diagonal, so that units do not matter.
     let scale = DVector::from_fn(m, |i, _| 1.0 / k[(i, i)].sqrt());
     for j in 0..m {

@@ -2,6 +2,11 @@
 //!
 //! Everything that does not depend on the sections (numbering, sparsity, symbolic factor, buffers) is made once by
 //! [`Solver::new`]; [`Solver::set_sections`] is what a new height costs.
+//!
+//! Products with K and Kg come in two kinds. Where the matrix itself is wanted (small models, tests) it is assembled as
+//! one of `nalgebra-sparse`. The iterations multiply member by member instead: 12 numbers a member are read in place of
+//! 72 matrix entries, Kg(N) changes in every step so that its assembly would cost several products, and the residual of
+//! the members' own deformations keeps the digits that cancel in a row of an assembled K.
 
 use super::element::{self, EndActions, Ends, Stiffness};
 use super::factor::{Factor, NotPositive};
@@ -10,6 +15,7 @@ use super::model::FrameModel;
 use super::section::Section;
 use super::system::{DOFS, System, TooLarge};
 use nalgebra::Vector3;
+use nalgebra_sparse::CscMatrix;
 
 /// A load combination: load case by index, times a factor.
 pub type Combination = Vec<(usize, f64)>;
@@ -279,6 +285,21 @@ impl<'m> Solver<'m> {
         self.system.hold(&mut self.shifted, 1.0);
         self.of_stiffness = false;
         self.factor.factorise(&self.system, &self.shifted)
+    }
+
+    /// K with the held unknowns taken out (diagonal 1), assembled.
+    pub fn stiffness_matrix(&self) -> CscMatrix<f64> {
+        self.system.symmetric(&self.matrix)
+    }
+
+    /// Kg(N) with the held unknowns taken out (diagonal 0), assembled.
+    pub fn geometric_matrix(&self, axial: &[f64]) -> CscMatrix<f64> {
+        let mut values = vec![0.0; self.system.values()];
+        for (m, axes) in self.model.axes().iter().enumerate() {
+            self.system.add(&mut values, m, &element::geometric(axes), axial[m]);
+        }
+        self.system.hold(&mut values, 0.0);
+        self.system.symmetric(&values)
     }
 
     /// Solves (K + s Kg) x = rhs in place with the factor that [`Solver::factorise_shifted`] made last; with that of K

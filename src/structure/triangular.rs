@@ -6,6 +6,7 @@
 //!
 //! The order of every sum is written down, so that the result does not depend on the width of the processor's vectors.
 
+use super::columns::dot;
 use super::simd::wide;
 use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
 
@@ -225,19 +226,6 @@ fn subtract_two(l: [&[f64]; GROUP], x: [f64; GROUP], y: [f64; GROUP], first: &mu
         first[i] -= (l[0] * x[0] + l[1] * x[1]) + (l[2] * x[2] + l[3] * x[3]) + (l[4] * x[4] + l[5] * x[5]);
         second[i] -= (l[0] * y[0] + l[1] * y[1]) + (l[2] * y[2] + l[3] * y[3]) + (l[4] * y[4] + l[5] * y[5]);
     }
-}
-
-#[inline(always)]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; LANES];
-    let (a_lanes, b_lanes) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
-    let rest: f64 = a_lanes.remainder().iter().zip(b_lanes.remainder()).map(|(x, y)| x * y).sum();
-    for (x, y) in a_lanes.zip(b_lanes) {
-        for lane in 0..LANES {
-            sums[lane] += x[lane] * y[lane];
-        }
-    }
-    rest + total(sums)
 }
 
 #[inline(always)]
