@@ -37,6 +37,19 @@ fn init_writes_a_config_that_checks_and_never_overwrites() {
 }
 
 #[test]
+fn manual_pages_say_what_help_says() {
+    let folder = tempfile::tempdir().unwrap();
+    let written = quadrille().args(["man", "--out", "man1"]).current_dir(&folder).output().unwrap();
+    let pages = String::from_utf8(written.stdout).unwrap();
+    assert!(pages.lines().count() > 15, "{pages}");
+    let page = std::fs::read_to_string(folder.path().join("man1/quadrille-run.1")).unwrap();
+    for part in ["history.csv", "\\-\\-resume", "Examples", "Exit codes"] {
+        assert!(page.contains(part), "{part} not in {page}");
+    }
+    assert!(stdout_of(&["man"]).contains(".SH SYNOPSIS"));
+}
+
+#[test]
 fn completions_for_every_shell() {
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
         assert!(stdout_of(&["completions", shell]).contains("quadrille"), "{shell}");

@@ -84,6 +84,13 @@ fn works_on_results(temporary: &Path, id: &str) {
     assert!(text(&dual.stdout).contains("compas.datastructures/Mesh"));
     let told = quadrille(temporary, &["explain", "r", id]);
     assert!(text(&told.stdout).contains("governs"), "{}", text(&told.stdout));
+    let picture = text(&read(temporary, &format!("r/explained/{id}.svg")));
+    for part in ["utilisation of members, uls", "largest deflection", "first buckling mode, uls: factor"] {
+        assert!(picture.contains(part), "{part} not in the picture");
+    }
+    let elsewhere = quadrille(temporary, &["explain", "r", id, "--svg", "mine/plan.svg"]);
+    assert!(elsewhere.status.success());
+    assert_eq!(text(&read(temporary, "mine/plan.svg")), picture);
     let unknown = quadrille(temporary, &["explain", "r", "zzz"]);
     assert_eq!(unknown.status.code(), Some(2));
 

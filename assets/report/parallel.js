@@ -13,7 +13,7 @@ function startParallel() {
     const width = Math.max(300, box.clientWidth), height = Math.max(260, Math.min(380, width * 0.42));
     const narrow = width < 620;
     svg.attr("viewBox", [0, 0, width, height]).attr("width", width).attr("height", height);
-    x = d3.scalePoint(objectives.map((_, i) => i), [narrow ? 34 : margin.left, width - (narrow ? 26 : margin.right)]);
+    x = d3.scalePoint(objectives.map((_, i) => i), [narrow ? 42 : margin.left, width - (narrow ? 26 : margin.right)]);
     scales = objectives.map((o) => d3.scaleLinear([o.least, o.most === o.least ? o.least + 1 : o.most], [height - margin.bottom, margin.top]));
     drawAxes(height, narrow);
     drawLines();

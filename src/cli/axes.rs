@@ -45,9 +45,9 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     let Some(axes) = Normalisation::quantiles(points.clone()) else {
         return Err(CliError::Failed("none of these designs has all objectives".into()));
     };
-    println!("# 1 % and 95 % quantiles of {} of {} random designs", points.count(), evaluations.len());
-    println!("ideal = {}", list(&axes.ideal));
-    println!("reference = {}", list(&axes.reference));
+    outln!("# 1 % and 95 % quantiles of {} of {} random designs", points.count(), evaluations.len());
+    outln!("ideal = {}", list(&axes.ideal));
+    outln!("reference = {}", list(&axes.reference));
     Ok(ExitCode::SUCCESS)
 }
 

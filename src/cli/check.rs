@@ -23,11 +23,11 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     for warning in config::warnings(&config) {
         console.warn(&warning);
     }
-    println!("# {}: what this config means", args.config.config.display());
+    outln!("# {}: what this config means", args.config.config.display());
     for line in config::describe(&config) {
-        println!("# * {line}");
+        outln!("# * {line}");
     }
-    println!();
-    print!("{}", config::to_toml(&config));
+    outln!();
+    out!("{}", config::to_toml(&config));
     Ok(ExitCode::SUCCESS)
 }

@@ -5,7 +5,7 @@ use quadrille::grammar::Tokens;
 use quadrille::mesh::Code;
 use quadrille::objectives::METRICS;
 use quadrille::output::designs::id;
-use quadrille::output::number::shortest;
+use quadrille::output::number::significant;
 use quadrille::output::table::{Cell, Table};
 use quadrille::search::Evaluation;
 use quadrille::study::{Effort, Study};
@@ -145,12 +145,6 @@ impl Comparison {
         }
         text.push('\n');
     }
-}
-
-/// Five significant digits, as a table for people has them.
-pub fn significant(value: f64) -> String {
-    let rounded: f64 = format!("{value:.4e}").parse().unwrap_or(value);
-    shortest(rounded).unwrap_or_default()
 }
 
 fn shown(name: &str) -> &str {

@@ -1,9 +1,9 @@
 //! `quadrille completions`: a completion script for a shell.
 
 use super::CliError;
+use super::stdout::print_result;
 use clap::CommandFactory;
 use clap_complete::Shell;
-use std::io;
 use std::process::ExitCode;
 
 /// Print a completion script for a shell.
@@ -19,6 +19,8 @@ pub struct Args {
 
 /// Writes the script to stdout.
 pub fn run<C: CommandFactory>(args: Args) -> Result<ExitCode, CliError> {
-    clap_complete::generate(args.shell, &mut C::command(), "quadrille", &mut io::stdout());
+    let mut script = Vec::new();
+    clap_complete::generate(args.shell, &mut C::command(), "quadrille", &mut script);
+    print_result(script)?;
     Ok(ExitCode::SUCCESS)
 }

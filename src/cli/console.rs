@@ -6,6 +6,7 @@ use std::io::{self, IsTerminal, Write};
 
 /// Options that every subcommand has.
 #[derive(Args)]
+#[command(next_help_heading = "Messages")]
 pub struct ConsoleArgs {
     /// Say nothing on stderr but errors.
     #[arg(long, short, global = true, conflicts_with = "verbose")]

@@ -1,9 +1,10 @@
 //! How far apart the forms of several designs without a surface lie (paper, Figure 21).
 
-use super::compare::{Comparison, significant};
+use super::compare::Comparison;
 use quadrille::geometry::Pattern;
 use quadrille::geometry::deviation::{self, Deviation};
 use quadrille::grammar::Tokens;
+use quadrille::output::number::significant;
 use quadrille::output::table::Table;
 use quadrille::study::{Effort, Study};
 use quadrille::surface::SurfaceKind;

@@ -43,10 +43,10 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     }
     let study = args.config.study(&config)?;
     let comparison = Comparison::of(&study, named);
-    print!("{}", comparison.to_text());
+    out!("{}", comparison.to_text());
     let deviations = Deviations::of(&study, &comparison);
     if let Some(deviations) = &deviations {
-        print!("{}", deviations.to_text());
+        out!("{}", deviations.to_text());
     }
     if let Some(folder) = &args.out {
         write(folder, &study, &config, &comparison, console)?;

@@ -1,20 +1,27 @@
 //! `quadrille explain`: what governs a design, where and by how much.
 
-use super::compare::significant;
 use super::folder_args::{find, open};
 use super::{CliError, Console};
 use quadrille::objectives::METRICS;
+use quadrille::output::atomic;
 use quadrille::output::designs::id;
+use quadrille::output::explanation::explanation;
+use quadrille::output::folder::EXPLAINED;
 use quadrille::output::load::Loaded;
+use quadrille::output::number::significant;
 use quadrille::output::results::Developed;
 use quadrille::search::EvaluatedRow;
 use quadrille::structure::gridshell::{Detailed, Place};
+use std::fs;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Tell in words what governs a design: limits and requirements, where they are reached, and its standing.
+/// Tell what governs a design, in words and a picture: limits and requirements, where they are reached, its standing.
 ///
-/// Nodes and members are numbered as in ID_nodes.csv and ID_members.csv (`quadrille export --format csv`).
+/// Nodes and members are numbered as in ID_nodes.csv and ID_members.csv (`quadrille export --format csv`). The picture,
+/// DIR/explained/ID.svg or --svg, is the plan: members coloured by utilisation, the member that governs, the node of
+/// the largest deflection, and the nodes that move in the first buckling mode. Where no structure is configured there is
+/// no picture.
 #[derive(clap::Args)]
 pub struct Args {
     /// The results folder of a run.
@@ -23,61 +30,82 @@ pub struct Args {
     /// The design: its id, or the beginning of it; any of history.csv.
     #[arg(value_name = "ID")]
     design: String,
+    /// Write the picture here [default: DIR/explained/ID.svg].
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
 }
 
 /// Tells.
 pub fn run(args: Args, _console: &Console) -> Result<ExitCode, CliError> {
     let (loaded, study) = open(&args.folder)?;
     let row = find(&loaded, &args.design)?;
-    println!("design {}: \"{}\"", id(row.code), row.tokens);
-    println!("expressed \"{}\", generation {}", row.expressed, row.generation);
+    outln!("design {}: \"{}\"", id(row.code), row.tokens);
+    outln!("expressed \"{}\", generation {}", row.expressed, row.generation);
     match row.is_feasible() {
-        true => println!("feasible"),
-        false => println!("not feasible (stage {}): {}", row.violation.stage, row.reason),
+        true => outln!("feasible"),
+        false => outln!("not feasible (stage {}): {}", row.violation.stage, row.reason),
     }
     standing(&loaded, row);
     let developed = match Developed::of(&study, &loaded.config, &row.tokens) {
         Ok(developed) => developed,
         Err(reason) => {
-            println!("\nno pattern: {reason}");
+            outln!("\nno pattern: {reason}");
             return Ok(ExitCode::SUCCESS);
         }
     };
-    println!("\nlimits of the pattern");
+    outln!("\nlimits of the pattern");
     for limit in &developed.design.limits {
         let state = if limit.excess > 0.0 { "EXCEEDED" } else { "kept" };
-        println!("  {:<22} {:>12}  limit {:>10}  {state}", limit.name, significant(limit.value), limit.limit);
+        outln!("  {:<22} {:>12}  limit {:>10}  {state}", limit.name, significant(limit.value), limit.limit);
     }
     if let Some(results) = &developed.results {
         requirements(results, &developed.design.pattern.positions);
     }
+    if let Some(picture) = explanation(&developed, &id(row.code)) {
+        let path = args.picture(row);
+        let made = path.parent().map_or(Ok(()), fs::create_dir_all);
+        made.and_then(|()| atomic::write(&path, &picture)).map_err(CliError::write(&path))?;
+        outln!("\npicture: {}", path.display());
+    }
     Ok(ExitCode::SUCCESS)
+}
+
+impl Args {
+    /// Where the picture of a design goes.
+    fn picture(&self, row: &EvaluatedRow) -> PathBuf {
+        let default = || self.folder.join(EXPLAINED).join(format!("{}.svg", id(row.code)));
+        self.svg.clone().unwrap_or_else(default)
+    }
+}
+
+/// The name of a metric with its unit; each quantity that can be required is one.
+fn column(name: &str) -> &str {
+    METRICS.iter().find(|metric| metric.name == name).map_or(name, |metric| metric.column)
 }
 
 /// Each objective against the best of the front.
 fn standing(loaded: &Loaded, row: &EvaluatedRow) {
-    println!("\nobjectives, and the range of the front");
+    outln!("\nobjectives, and the range of the front");
     for (index, name) in loaded.config.objectives.minimise.iter().enumerate() {
-        let column =
-            METRICS.iter().find(|metric| metric.name == name).map_or(name.as_str(), |metric| metric.column);
+        let column = column(name);
         let front = loaded.front.iter().filter_map(|&f| loaded.evaluated[f].objectives.get(index).copied());
         let (low, high) = front.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
         let own = row.objectives.get(index).map_or("–".into(), |&value| significant(value));
         if low.is_finite() {
-            println!("  {column:<22} {own:>12}  {} to {}", significant(low), significant(high));
+            outln!("  {column:<22} {own:>12}  {} to {}", significant(low), significant(high));
         } else {
-            println!("  {column:<22} {own:>12}");
+            outln!("  {column:<22} {own:>12}");
         }
     }
 }
 
 fn requirements(results: &Detailed, positions: &[[f64; 3]]) {
-    println!("\nrequirements");
+    outln!("\nrequirements");
     for requirement in &results.response.requirements {
         let sign = if requirement.upper { "≤" } else { "≥" };
-        println!(
+        outln!(
             "  {:<22} {:>12}  {sign} {:<8} {:>4.0} % used, in {}, at {}",
-            requirement.quantity.to_string(),
+            column(&requirement.quantity.to_string()),
             significant(requirement.value),
             requirement.limit,
             100.0 * requirement.used(),
@@ -87,20 +115,16 @@ fn requirements(results: &Detailed, positions: &[[f64; 3]]) {
     }
     match results.response.governing() {
         Some(governing) if governing.excess() > 0.0 => {
-            println!(
+            outln!(
                 "{} governs: its limit is exceeded by {:.0} %",
                 governing.quantity,
                 100.0 * governing.excess()
             );
         }
         Some(governing) => {
-            println!(
-                "{} governs: {:.0} % of its limit is used",
-                governing.quantity,
-                100.0 * governing.used()
-            );
+            outln!("{} governs: {:.0} % of its limit is used", governing.quantity, 100.0 * governing.used());
         }
-        None => println!("none is configured"),
+        None => outln!("none is configured"),
     }
 }
 

@@ -1,6 +1,7 @@
 //! `quadrille export`: a design again, in another format.
 
 use super::folder_args::{find, open};
+use super::stdout::print_result;
 use super::{CliError, Console};
 use clap::ValueEnum;
 use quadrille::geometry::Pattern;
@@ -12,7 +13,6 @@ use quadrille::output::polygons::Polygons;
 use quadrille::output::results::{DesignFiles, Developed};
 use quadrille::output::vtu::{Grid, vtu};
 use quadrille::output::{atomic, svg};
-use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -141,7 +141,7 @@ fn transformed(
 fn write(args: &Args, files: DesignFiles) -> Result<ExitCode, CliError> {
     match (&args.out, files.as_slice()) {
         (None, [(_, bytes)]) => {
-            std::io::stdout().lock().write_all(bytes).map_err(CliError::write("standard output"))?;
+            print_result(bytes)?;
         }
         (None, _) => {
             let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
@@ -152,7 +152,7 @@ fn write(args: &Args, files: DesignFiles) -> Result<ExitCode, CliError> {
             for (name, bytes) in &files {
                 let path = folder.join(name);
                 atomic::write(&path, bytes).map_err(CliError::write(&path))?;
-                println!("{}", path.display());
+                outln!("{}", path.display());
             }
         }
     }

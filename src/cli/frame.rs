@@ -1,11 +1,11 @@
 //! `quadrille frame`: the frame solver alone, on any model.
 
+use super::stdout::print_result;
 use super::{CliError, Console, exit};
 use clap::ValueEnum;
 use quadrille::structure::file;
 use quadrille::structure::{FrameModel, FrameResult, frame};
 use std::fmt::Write as _;
-use std::io::{self, Write as _};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -45,7 +45,7 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
         (Err(error), Format::Json) => format!("{}\n", file::failure(error)).into_bytes(),
         (Err(_), Format::Text) => Vec::new(),
     };
-    io::stdout().lock().write_all(&printed).map_err(CliError::write("standard output"))?;
+    print_result(&printed)?;
     match answer {
         Ok(_) => Ok(ExitCode::SUCCESS),
         Err(error) => {

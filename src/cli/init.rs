@@ -29,7 +29,7 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     }
     let write = |path: &PathBuf| File::create_new(path)?.write_all(STARTER.as_bytes());
     write(&path).map_err(CliError::write(&path))?;
-    println!("{}", path.display());
+    outln!("{}", path.display());
     console.note(&format!("next: quadrille check {0}, then quadrille run {0}", path.display()));
     Ok(ExitCode::SUCCESS)
 }

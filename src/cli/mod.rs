@@ -3,6 +3,9 @@
 //! stdout is for results, stderr for progress and messages. Exit codes are those of [`CliError`] and [`exit`].
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "the binary is what talks to people")]
 
+#[macro_use]
+mod stdout;
+
 mod axes;
 mod check;
 mod compare;
@@ -19,20 +22,21 @@ mod explain;
 mod export;
 mod folder_args;
 mod frame;
+mod help;
 mod init;
+mod man;
 mod neighbours;
 mod progress;
 mod report;
 mod run;
 mod skeleton;
-mod stdout;
 mod topology;
 mod verify;
 
 pub use console::{Console, ConsoleArgs};
 pub use error::CliError;
 
-use clap::{Parser, Subcommand};
+use clap::{FromArgMatches, Parser, Subcommand};
 use std::process::ExitCode;
 
 /// Finds good topologies for structured surface structures: gridshells, shells, cable nets.
@@ -66,11 +70,16 @@ enum Command {
     Skeleton(skeleton::Args),
     Frame(frame::Args),
     Completions(completions::Args),
+    Man(man::Args),
 }
 
 /// Runs the program and gives its exit code.
 pub fn main() -> ExitCode {
-    let Cli { console, command } = Cli::parse();
+    let matches = help::command::<Cli>().get_matches();
+    let Cli { console, command } = match Cli::from_arg_matches(&matches) {
+        Ok(cli) => cli,
+        Err(error) => error.exit(),
+    };
     let console = Console::new(&console);
     let result = match command {
         Command::Decode(args) => decode::run(&args),
@@ -88,6 +97,7 @@ pub fn main() -> ExitCode {
         Command::Report(args) => report::run(args, &console),
         Command::Skeleton(args) => skeleton::run(args, &console),
         Command::Completions(args) => completions::run::<Cli>(args),
+        Command::Man(args) => man::run::<Cli>(args),
     };
     result.unwrap_or_else(|error| {
         console.error(&error.to_string());

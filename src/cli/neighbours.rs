@@ -1,11 +1,12 @@
 //! `quadrille neighbours`: every design one strip away.
 
-use super::compare::{Comparison, significant};
+use super::compare::Comparison;
 use super::config_args::ConfigArgs;
 use super::evaluate::parse;
 use super::{CliError, Console};
 use quadrille::objectives::Metric;
 use quadrille::output::atomic;
+use quadrille::output::number::significant;
 use quadrille::search::operators::Reach;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -54,19 +55,19 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     let comparison = Comparison::of(&study, named);
     let count = comparison.entries.len() - 1;
     let feasible = comparison.entries[1..].iter().filter(|e| e.evaluation.violation.is_feasible()).count();
-    println!(
+    outln!(
         "\"{expressed}\" ({}): {count} neighbours, {feasible} of them feasible",
         comparison.entries[0].id()
     );
     if !comparison.entries[0].evaluation.violation.is_feasible() {
-        println!("the string itself is not feasible: {}", comparison.entries[0].evaluation.reason);
+        outln!("the string itself is not feasible: {}", comparison.entries[0].evaluation.reason);
     }
     let mut won = 0;
     for (index, objective) in study.objectives.iter().enumerate() {
         won += usize::from(rank(&comparison, index, objective));
     }
     if feasible > 0 {
-        println!("\n{}", verdict(won, study.objectives.len()));
+        outln!("\n{}", verdict(won, study.objectives.len()));
     }
     if let Some(path) = &args.out {
         atomic::write(path, &comparison.table().to_csv()).map_err(CliError::write(path))?;
@@ -94,10 +95,10 @@ fn rank(comparison: &Comparison, index: usize, objective: &Metric) -> bool {
     let own_is_feasible = comparison.entries[0].evaluation.violation.is_feasible();
     let best = own_is_feasible && own.zip(others.first()).is_some_and(|(own, &(other, _))| own < other);
     let shown = own.map_or_else(|| "–".into(), significant);
-    println!("\n{}: {shown}{}", objective.column, if best { ", better than all neighbours" } else { "" });
+    outln!("\n{}: {shown}{}", objective.column, if best { ", better than all neighbours" } else { "" });
     for (value, entry) in others.into_iter().take(LISTED) {
         let entry = &comparison.entries[entry];
-        println!("  {:>12}  {}  {}", significant(value), entry.id(), entry.name);
+        outln!("  {:>12}  {}  {}", significant(value), entry.id(), entry.name);
     }
     best
 }

@@ -27,6 +27,6 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     if pictures < data.front.len() {
         console.warn(&format!("{pictures} of {} designs have a picture on the page", data.front.len()));
     }
-    println!("{}", path.display());
+    outln!("{}", path.display());
     Ok(ExitCode::SUCCESS)
 }

@@ -21,6 +21,11 @@ use std::time::{Instant, SystemTime};
 /// folder, or to --out. The same config and seed give the same results, with any number of threads. Ctrl-C (or
 /// SIGTERM) ends the run after the evaluations in flight; `--resume` goes on from there with the same result. A
 /// second Ctrl-C aborts at once.
+///
+/// The folder then holds pareto.csv (the front), history.csv (every evaluated design, and why it failed),
+/// generations.csv (convergence), operators.csv, report.html (open it in a browser), designs/ (each design of the front
+/// as OBJ, COMPAS JSON, SVG, VTU, and CSV of nodes and members), design_explorer/data.csv and manifest.json. A folder that
+/// holds a run is not overwritten without --force.
 #[derive(clap::Args)]
 pub struct Args {
     #[command(flatten)]
@@ -207,12 +212,12 @@ fn summarise(study: &Study, outcome: &Outcome, folder: &Folder, clock: Instant, 
         outcome.evaluated.len(),
         duration(clock.elapsed().as_secs_f64())
     ));
-    println!("{}: {} designs on the front", folder.path().display(), outcome.front.len());
+    outln!("{}: {} designs on the front", folder.path().display(), outcome.front.len());
     for (i, objective) in study.objectives.iter().enumerate() {
         let values = outcome.front.iter().map(|&row| outcome.evaluated[row].objectives[i]);
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
         if low.is_finite() {
-            println!("  {:<24} {low:>12.6} to {high:>12.6}", objective.column);
+            outln!("  {:<24} {low:>12.6} to {high:>12.6}", objective.column);
         }
     }
     if outcome.front.is_empty() {

@@ -11,6 +11,9 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Print the initial mesh of a config: from the medial axis of its domain, or as the config gives it.
+///
+/// It is what the empty string stands for, and what every string rewrites. In the picture vertices have their numbers,
+/// singular ones their valence (orange: fewer edges than regular, blue: more), corners are white, the marker is green.
 #[derive(clap::Args)]
 pub struct Args {
     /// The config.
@@ -19,15 +22,18 @@ pub struct Args {
     /// Set a key of the config, as in `surface.kind="plane"`; may be given several times.
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
-    /// What to print: a picture of the plan, a base mesh file, or OBJ.
+    /// What to print.
     #[arg(long, value_enum, default_value_t = Format::Svg)]
     format: Format,
 }
 
 #[derive(Clone, Copy, clap::ValueEnum)]
 enum Format {
+    /// A picture of the plan.
     Svg,
+    /// A base mesh file: edit it and give it as `topology.initial.file`, or to `decode --base`.
     Json,
+    /// Wavefront OBJ.
     Obj,
 }
 
@@ -42,9 +48,9 @@ pub fn run(args: Args, _console: &Console) -> Result<ExitCode, CliError> {
     let base = skeleton::initial(&config.topology, &domain, folder).map_err(|e| wrong(&e))?;
     let name = args.config.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
     match args.format {
-        Format::Svg => print!("{}", skeleton::picture::svg(&base, &domain, &name).map_err(|e| wrong(&e))?),
-        Format::Json => println!("{}", to_json(&base)),
-        Format::Obj => print!("{}", obj::write(&name, &base)),
+        Format::Svg => out!("{}", skeleton::picture::svg(&base, &domain, &name).map_err(|e| wrong(&e))?),
+        Format::Json => outln!("{}", to_json(&base)),
+        Format::Obj => out!("{}", obj::write(&name, &base)),
     }
     Ok(ExitCode::SUCCESS)
 }

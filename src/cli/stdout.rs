@@ -1,12 +1,32 @@
 //! Results on stdout.
 
-use super::CliError;
+use super::{CliError, exit};
+use std::fmt::Arguments;
 use std::io::{self, ErrorKind, Write};
 
+/// As `print!`, but a reader that went away (`| head`) is no panic, and a full disk is an error.
+macro_rules! out {
+    ($($text:tt)*) => { $crate::cli::stdout::put(format_args!($($text)*)) };
+}
+
+/// As `println!`, likewise.
+macro_rules! outln {
+    () => { $crate::cli::stdout::put(format_args!("\n")) };
+    ($($text:tt)*) => { $crate::cli::stdout::put(format_args!("{}\n", format_args!($($text)*))) };
+}
+
+/// What the macros do: results that cannot be written end the program with exit code 1.
+pub fn put(text: Arguments<'_>) {
+    if let Err(error) = print_result(text.to_string()) {
+        let _ = writeln!(io::stderr().lock(), "error: {error}");
+        std::process::exit(exit::FAILED.into());
+    }
+}
+
 /// Prints a result as it is. A reader that went away (`| head`) is no failure.
-pub fn print_result(text: &str) -> Result<(), CliError> {
+pub fn print_result(text: impl AsRef<[u8]>) -> Result<(), CliError> {
     let mut stdout = io::stdout().lock();
-    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+    match stdout.write_all(text.as_ref()).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(CliError::write("stdout")(error)),
         _ => Ok(()),
     }

@@ -39,13 +39,13 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     for (row, differences) in rows.iter().zip(&found) {
         different += usize::from(!differences.is_empty());
         for difference in differences {
-            println!("{}: {difference}", id(row.code));
+            outln!("{}: {difference}", id(row.code));
         }
         if differences.is_empty() {
             console.detail(&format!("{}: verified", id(row.code)));
         }
     }
-    println!("{} of {} designs verified", rows.len() - different, rows.len());
+    outln!("{} of {} designs verified", rows.len() - different, rows.len());
     Ok(ExitCode::from(if different == 0 { exit::DONE } else { exit::FAILED }))
 }
 

@@ -23,8 +23,8 @@ const DIRECTIONS: [&str; 6] = ["ux_m", "uy_m", "uz_m", "rx_rad", "ry_rad", "rz_r
 const REACTIONS: [&str; 6] = ["fx_n", "fy_n", "fz_n", "mx_nm", "my_nm", "mz_nm"];
 const RESULTANTS: [&str; 6] = ["n_n", "vy_n", "vz_n", "mt_nm", "my_nm", "mz_nm"];
 
-impl Analysed<'_> {
-    fn combinations(&self) -> &[CombinationResult] {
+impl<'a> Analysed<'a> {
+    fn combinations(&self) -> &'a [CombinationResult] {
         self.results.map_or(&[], |results| &results.combinations)
     }
 
@@ -80,14 +80,14 @@ impl Analysed<'_> {
     }
 
     /// The combination that the metric `utilisation` is taken from: the one with its value.
-    fn governing(&self) -> Option<&CombinationResult> {
+    pub fn governing(&self) -> Option<&'a CombinationResult> {
         let value = self.results?.response.utilisation;
         let combinations = self.combinations();
         combinations.iter().find(|c| c.metrics.utilisation.0 == value).or(combinations.last())
     }
 
     /// What a member uses of its strength, as the metric `utilisation` counts it.
-    fn utilisation(&self, used: &Utilisation) -> f64 {
+    pub fn utilisation(&self, used: &Utilisation) -> f64 {
         if self.first_order { used.inner } else { used.ends }
     }
 

@@ -5,6 +5,15 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
+const PREFIX: &str = ".quadrille-";
+const SUFFIX: &str = ".tmp";
+
+/// Whether a file is what a killed [`write`] left behind.
+pub fn is_temporary(path: &Path) -> bool {
+    let name = path.file_name().map(|name| name.to_string_lossy());
+    name.is_some_and(|name| name.starts_with(PREFIX) && name.ends_with(SUFFIX))
+}
+
 /// Writes a file whole: to a temporary name in the same folder, synced, then renamed over the old one.
 ///
 /// A kill at any moment leaves the old file or the new one. The folder must exist.
@@ -25,7 +34,7 @@ pub fn write_with(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<(
         _ => Path::new("."),
     };
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".").suffix(".tmp");
+    builder.prefix(PREFIX).suffix(SUFFIX);
     readable_by_all(&mut builder);
     let mut file = builder.tempfile_in(folder)?;
     let mut buffered = BufWriter::new(&mut file);

@@ -26,6 +26,8 @@ pub const REPORT: &str = "report.html";
 pub const DESIGNS: &str = "designs";
 /// Folder for Design Explorer.
 pub const DESIGN_EXPLORER: &str = "design_explorer";
+/// Folder of the pictures that `explain` draws.
+pub const EXPLAINED: &str = "explained";
 /// Every evaluation of a run, as they come.
 pub const JOURNAL: &str = "evaluations.jsonl";
 const LOCK: &str = ".lock";
@@ -96,12 +98,13 @@ impl Folder {
             Err(TryLockError::Error(source)) => return Err(io(&lock_path)(source)),
         }
         let folder = Self { path: path.to_path_buf(), _lock: lock };
-        // An interrupted run has tables too; the manifest tells them apart.
+        folder.clear_temporary()?;
+        let checkpoint = has_checkpoint(path);
+        // An interrupted run has tables too; the manifest, written last, tells them apart.
         let finished = match Manifest::read(path) {
             Some(manifest) => manifest.status == Status::Finished,
-            None => folder.join(PARETO).exists(),
+            None => !checkpoint && folder.join(PARETO).exists(),
         };
-        let checkpoint = has_checkpoint(path);
         match opening {
             // A run that was stopped by its limits keeps its checkpoint: raised limits let it go on.
             Opening::Resume => {}
@@ -126,11 +129,24 @@ impl Folder {
             JOURNAL,
             REPORT,
         ];
-        let excel = [PARETO, HISTORY, GENERATIONS].map(excel_name);
+        let excel = [PARETO, HISTORY, GENERATIONS, OPERATORS].map(excel_name);
         for name in files.into_iter().chain(excel.iter().map(String::as_str)) {
             self.remove(name, |path| fs::remove_file(path))?;
         }
+        self.remove(EXPLAINED, |path| fs::remove_dir_all(path))?;
         self.clear_designs()
+    }
+
+    /// Removes what a killed run was just writing under a temporary name.
+    fn clear_temporary(&self) -> Result<(), FolderError> {
+        for folder in [self.path.clone(), self.join(DESIGNS), self.join(DESIGN_EXPLORER)] {
+            for path in fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()) {
+                if atomic::is_temporary(&path) {
+                    fs::remove_file(&path).map_err(|source| FolderError::Io { path, source })?;
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Removes the files of all designs: the front of a run that goes on may lose some.
@@ -214,8 +230,25 @@ mod tests {
         assert!(matches!(open(Opening::Resume), Err(FolderError::NoCheckpoint(_))));
         open(Opening::New).unwrap().write(CHECKPOINT, b"{}").unwrap();
         assert!(matches!(open(Opening::New), Err(FolderError::Interrupted(_))));
+        // Killed while it wrote its tables: the manifest is missing.
         open(Opening::Resume).unwrap().write(PARETO, b"id\n").unwrap();
+        assert!(matches!(open(Opening::New), Err(FolderError::Interrupted(_))));
+        fs::remove_file(temporary.path().join(CHECKPOINT)).unwrap();
         assert!(matches!(open(Opening::New), Err(FolderError::Finished(_))));
+    }
+
+    #[test]
+    fn what_a_killed_run_was_writing_is_removed() {
+        let temporary = tempfile::tempdir().unwrap();
+        let folder = Folder::open(temporary.path(), Opening::New).unwrap();
+        for name in [CHECKPOINT, ".quadrille-a1b2.tmp", "designs/.quadrille-c3d4.tmp", ".theirs.tmp"] {
+            folder.write(name, b"x").unwrap();
+        }
+        drop(folder);
+        let folder = Folder::open(temporary.path(), Opening::Resume).unwrap();
+        assert!(folder.join(CHECKPOINT).exists() && folder.join(".theirs.tmp").exists());
+        assert!(!folder.join(".quadrille-a1b2.tmp").exists());
+        assert!(!folder.join("designs/.quadrille-c3d4.tmp").exists());
     }
 
     #[test]

@@ -5,6 +5,7 @@ pub mod atomic;
 pub mod coarse;
 pub mod compas;
 pub mod designs;
+pub mod explanation;
 pub mod explorer;
 pub mod folder;
 pub mod generations;

@@ -25,6 +25,12 @@ pub fn rounded(value: f64, decimals: usize) -> String {
     if text == "-0" { "0".into() } else { text.into() }
 }
 
+/// Five significant digits: for people.
+pub fn significant(value: f64) -> String {
+    let rounded: f64 = format!("{value:.4e}").parse().unwrap_or(value);
+    shortest(rounded).unwrap_or_default()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -19,7 +19,7 @@ pub struct Shade<'a> {
 
 /// Longest side of the drawing, in SVG units.
 const SIZE: f64 = 800.0;
-const MARGIN: f64 = 24.0;
+pub(super) const MARGIN: f64 = 24.0;
 /// Number of shades: panels of one shade share a path, which keeps files small.
 const SHADES: usize = 12;
 
@@ -37,15 +37,7 @@ pub fn svg(pattern: &Pattern, title: &str, shade: Option<&Shade<'_>>) -> Vec<u8>
     let frame = Frame::of(&pattern.positions);
     let legend = if shade.is_some() { 20.0 } else { 0.0 };
     let (width, height) = (frame.width + 2.0 * MARGIN, frame.height + 2.0 * MARGIN + legend);
-    let mut text = String::new();
-    let _ = write!(
-        text,
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" role=\"img\">\n<title>{}</title>\n\
-         <style>{STYLE}</style>\n",
-        rounded(width, 1),
-        rounded(height, 1),
-        escape(title)
-    );
+    let mut text = begin(width, height, title, STYLE);
     panels(&mut text, pattern, &frame, shade);
     let _ = writeln!(text, "<path class=\"coarse\" d=\"{}\"/>", coarse_edges(pattern, &frame));
     for boundary_loop in &pattern.loops {
@@ -67,28 +59,33 @@ pub fn svg(pattern: &Pattern, title: &str, shade: Option<&Shade<'_>>) -> Vec<u8>
 pub fn outlines(mesh: &Polygons<'_>, title: &str) -> Vec<u8> {
     let frame = Frame::of(mesh.positions);
     let paths: String = mesh.faces.iter().map(|face| outline(&frame, mesh.positions, face)).collect();
-    let text = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" role=\"img\">\n<title>{}</title>\n\
-         <style>{STYLE}</style>\n<g class=\"panels\"><path fill=\"{}\" d=\"{paths}\"/></g>\n</svg>\n",
-        rounded(frame.width + 2.0 * MARGIN, 1),
-        rounded(frame.height + 2.0 * MARGIN, 1),
-        escape(title),
-        sand(0.25)
-    );
+    let mut text = begin(frame.width + 2.0 * MARGIN, frame.height + 2.0 * MARGIN, title, STYLE);
+    let _ = writeln!(text, "<g class=\"panels\"><path fill=\"{}\" d=\"{paths}\"/></g>\n</svg>", sand(0.25));
     text.into_bytes()
 }
 
+/// The beginning of a picture on white, since a viewer may have any background.
+pub(super) fn begin(width: f64, height: f64, title: &str, style: &str) -> String {
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" role=\"img\">\n<title>{}</title>\n\
+         <style>{style}</style>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
+        rounded(width, 1),
+        rounded(height, 1),
+        escape(title)
+    )
+}
+
 /// Plan coordinates to drawing coordinates.
-struct Frame {
+pub(super) struct Frame {
     left: f64,
     top: f64,
     scale: f64,
-    width: f64,
-    height: f64,
+    pub(super) width: f64,
+    pub(super) height: f64,
 }
 
 impl Frame {
-    fn of(positions: &[[f64; 3]]) -> Self {
+    pub(super) fn of(positions: &[[f64; 3]]) -> Self {
         let mut low = [f64::INFINITY; 2];
         let mut high = [f64::NEG_INFINITY; 2];
         for position in positions {
@@ -103,17 +100,17 @@ impl Frame {
         Self { left: low[0], top: high[1], scale, width: extent[0] * scale, height: extent[1] * scale }
     }
 
-    fn place(&self, [x, y, _]: [f64; 3]) -> [f64; 2] {
+    pub(super) fn place(&self, [x, y, _]: [f64; 3]) -> [f64; 2] {
         [MARGIN + (x - self.left) * self.scale, MARGIN + (self.top - y) * self.scale]
     }
 
-    fn write(&self, position: [f64; 3]) -> String {
+    pub(super) fn write(&self, position: [f64; 3]) -> String {
         let [x, y] = self.place(position);
         format!("{} {}", rounded(x, 1), rounded(y, 1))
     }
 }
 
-fn outline(frame: &Frame, positions: &[[f64; 3]], vertices: &[u32]) -> String {
+pub(super) fn outline(frame: &Frame, positions: &[[f64; 3]], vertices: &[u32]) -> String {
     let points: Vec<String> = vertices.iter().map(|&v| frame.write(positions[v as usize])).collect();
     format!("M{}Z", points.join("L"))
 }
@@ -241,7 +238,7 @@ fn draw_legend(text: &mut String, shade: &Shade<'_>, y: f64) {
     let _ = writeln!(text, "<text x=\"{x}\" y=\"{}\">{}</text>", rounded(y, 1), escape(&label));
 }
 
-fn escape(text: &str) -> String {
+pub(super) fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
