@@ -37,13 +37,16 @@ fn agree(a: &str, b: &str) -> bool {
 }
 
 #[test]
-fn one_and_two_threads_give_the_same_bytes_and_the_committed_front() {
-    let folders = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
-    run_ci(folders[0].path(), "1");
-    run_ci(folders[1].path(), "2");
+fn any_number_of_threads_gives_the_same_bytes_and_the_committed_front() {
+    let folders = ["1", "2", "3", "8"].map(|threads| {
+        let folder = tempfile::tempdir().unwrap();
+        run_ci(folder.path(), threads);
+        folder
+    });
     for table in TABLES {
-        let [one, two] = [0, 1].map(|k| fs::read(folders[k].path().join(table)).unwrap());
-        assert!(one == two, "{table} depends on the number of threads");
+        let [one, others @ ..] =
+            folders.each_ref().map(|folder| fs::read(folder.path().join(table)).unwrap());
+        assert!(others.iter().all(|other| *other == one), "{table} depends on the number of threads");
     }
     for table in ["pareto.csv", "generations.csv"] {
         let [now, committed] =

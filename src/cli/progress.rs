@@ -11,8 +11,7 @@ pub struct Display {
     console: Console,
     bar: Option<ProgressBar>,
     generations: u32,
-    /// Designs that the whole run would evaluate if nothing ends it early.
-    expected: u64,
+    limits: Limits,
     started: Instant,
     now: Option<Progress>,
     front: u64,
@@ -23,8 +22,9 @@ impl Display {
     /// A display for a run of a config.
     pub fn new(config: &Config, console: Console) -> Self {
         let generations = config.search.generations;
-        let expected = config.search.population as u64 * (u64::from(generations) + 1);
+        let limits = Limits::of(config);
         let bar = (console.progress() == How::Bar).then(|| {
+            let expected = limits.expected(0, 0);
             let bar = ProgressBar::with_draw_target(Some(expected), ProgressDrawTarget::stderr());
             bar.set_style(style());
             bar.enable_steady_tick(Duration::from_millis(200));
@@ -34,7 +34,7 @@ impl Display {
             console,
             bar,
             generations,
-            expected,
+            limits,
             started: Instant::now(),
             now: None,
             front: 0,
@@ -62,7 +62,9 @@ impl Display {
         let seconds = self.started.elapsed().as_secs_f64();
         let rate = if seconds > 0.0 { fresh as f64 / seconds } else { 0.0 };
         let share = 100.0 * progress.feasible as f64 / progress.evaluations.max(1) as f64;
-        let left = self.expected.saturating_sub(progress.evaluations) as f64 / rate;
+        let expected = self.limits.expected(progress.evaluations, progress.structural);
+        let left = expected.saturating_sub(progress.evaluations) as f64 / rate;
+        let left = self.limits.seconds.map_or(left, |limit| left.min((limit - seconds).max(0.0)));
         format!(
             "generation {}/{}  {} evaluations  {rate:.1}/s  feasible {share:.0} %  front {}  hypervolume {}  {}",
             progress.generation,
@@ -79,12 +81,14 @@ impl Observer for Display {
     fn evaluated(&mut self, progress: &Progress) {
         self.now = Some(*progress);
         if let Some(bar) = &self.bar {
-            bar.set_position(progress.evaluations.min(self.expected));
+            bar.set_length(self.limits.expected(progress.evaluations, progress.structural));
+            bar.set_position(progress.evaluations);
             bar.set_message(self.summary(progress));
         }
     }
 
     fn generation(&mut self, row: &GenerationRow) {
+        self.limits.finished = (u64::from(row.generation) + 1, row.evaluations);
         self.front = row.front;
         self.hypervolume = row.hypervolume;
         let recovered = self.now.map_or(0, |now| now.recovered);
@@ -113,6 +117,42 @@ impl Observer for Display {
     }
 }
 
+/// What ends the run, and how far it has come: for the time left.
+struct Limits {
+    population: u64,
+    /// Generations, the first population among them.
+    generations: u64,
+    structural: Option<u64>,
+    seconds: Option<f64>,
+    /// Finished generations, and the evaluations made in them.
+    finished: (u64, u64),
+}
+
+impl Limits {
+    fn of(config: &Config) -> Self {
+        Self {
+            population: config.search.population as u64,
+            generations: u64::from(config.search.generations) + 1,
+            structural: config.search.evaluations,
+            seconds: config.search.minutes.map(|minutes| 60.0 * minutes),
+            finished: (0, 0),
+        }
+    }
+
+    /// How many evaluations the run will have made at its end, if it goes on as before: a generation in which many
+    /// designs fail early evaluates more than the population.
+    fn expected(&self, evaluations: u64, structural: u64) -> u64 {
+        let (finished, made) = self.finished;
+        let a_generation = if finished > 0 { made as f64 / finished as f64 } else { self.population as f64 };
+        let by_generations = (a_generation * self.generations as f64).round() as u64;
+        let by_budget = match self.structural {
+            Some(budget) if structural > 0 => (evaluations as f64 * budget as f64 / structural as f64) as u64,
+            _ => u64::MAX,
+        };
+        by_generations.min(by_budget).max(evaluations)
+    }
+}
+
 fn style() -> ProgressStyle {
     ProgressStyle::with_template("{wide_bar} {percent}%\n{msg}")
         .unwrap_or_else(|_| ProgressStyle::default_bar())
@@ -125,5 +165,26 @@ pub fn duration(seconds: f64) -> String {
         0..60 => format!("{seconds} s"),
         60..3600 => format!("{} min {} s", seconds / 60, seconds % 60),
         _ => format!("{} h {} min", seconds / 3600, seconds / 60 % 60),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Limits;
+
+    #[test]
+    fn what_is_left_follows_what_generations_have_taken() {
+        let limits = |finished, structural| Limits {
+            population: 24,
+            generations: 16,
+            structural,
+            seconds: None,
+            finished,
+        };
+        assert_eq!(limits((0, 0), None).expected(0, 0), 384);
+        assert_eq!(limits((4, 300), None).expected(310, 90), 1200);
+        assert_eq!(limits((16, 1100), None).expected(1100, 380), 1100);
+        // A budget of structural evaluations, half of it used up.
+        assert_eq!(limits((4, 300), Some(200)).expected(310, 100), 620);
     }
 }

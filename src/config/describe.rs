@@ -252,7 +252,7 @@ fn describe_search(config: &Config) -> Vec<String> {
     let seed = config.run.seed.map_or("drawn at random".to_owned(), |seed| seed.to_string());
     vec![
         format!(
-            "search: population {}, at most {most} designs, ends after {}; strings of {} to {} tokens; seed {seed}",
+            "search: population {}, at most {most} designs analysed, ends after {}; strings of {} to {} tokens; seed {seed}",
             search.population,
             stops.join(" or "),
             search.tokens.min,

@@ -66,11 +66,10 @@ pub fn outlines(mesh: &Polygons<'_>, title: &str) -> Vec<u8> {
 
 /// The beginning of a picture on white, since a viewer may have any background.
 pub(super) fn begin(width: f64, height: f64, title: &str, style: &str) -> String {
+    let [width, height] = [width, height].map(|length| rounded(length, 1));
     format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" role=\"img\">\n<title>{}</title>\n\
-         <style>{style}</style>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
-        rounded(width, 1),
-        rounded(height, 1),
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" \
+         role=\"img\">\n<title>{}</title>\n<style>{style}</style>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
         escape(title)
     )
 }
