@@ -170,7 +170,7 @@ impl<'a> Analysed<'a> {
             vec![NamedField { name: "length_m".into(), components: 1, values: self.member_lengths() }];
         if let Some(governing) = self.governing() {
             let values = governing.member_utilisation.iter().map(|used| self.utilisation(used)).collect();
-            fields.push(NamedField { name: "utilisation".into(), components: 1, values });
+            fields.push(NamedField { name: "utilisation".into(), components: 1, values }.rounded());
         }
         for combination in self.combinations() {
             fields.extend(member_fields(combination).map(NamedField::rounded));
