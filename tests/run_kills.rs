@@ -85,7 +85,7 @@ fn stderr(output: &Output) -> String {
 #[test]
 fn killed_at_random_moments_and_resumed_each_time() {
     let kills: u32 = std::env::var("KILLS").map_or(6, |kills| kills.parse().unwrap());
-    let longest = undisturbed().1.as_micros() as usize * 3 / 10;
+    let longest = undisturbed().1.as_micros() as usize * 6 / 10;
     let mut folder = TempDir::new().unwrap();
     let (mut killed, mut finished, mut sittings) = (0, 0, 0);
     while killed < kills {
