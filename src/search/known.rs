@@ -53,7 +53,8 @@ impl Known {
     /// Registers a design under its row.
     pub(crate) fn insert(&mut self, code: Code, neighbourhood: &[(Code, u8)], row: u32) {
         self.rows.insert(code, row);
-        if self.min_distance == 0 {
+        // At distance 1 and with the same code for both uses, `rows` says it all.
+        if self.min_distance == 0 || (self.min_distance == 1 && neighbourhood == [(code, 0)]) {
             return;
         }
         for &(code, deleted) in neighbourhood {

@@ -55,32 +55,43 @@ impl EvaluatedRow {
     }
 }
 
-/// Optional numbers in 8 bytes each, since every evaluated design is kept in memory. NaN stands for "none" inside
-/// and never comes out.
-#[derive(Clone, Debug, Default)]
-pub struct Metrics(Box<[f64]>);
+/// Optional numbers, at most 64, of which only those that exist take room: every evaluated design is kept in memory,
+/// and most fail before they have all. NaN counts as none.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Metrics {
+    /// Bit i: number i exists.
+    present: u64,
+    length: u8,
+    values: Box<[f64]>,
+}
 
 impl Metrics {
     /// All values, in order.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = Option<f64>> + '_ {
-        self.0.iter().map(|&x| (!x.is_nan()).then_some(x))
+        (0..usize::from(self.length)).map(|index| self.get(index))
     }
 
     /// The value at `index`, if there is one.
     pub fn get(&self, index: usize) -> Option<f64> {
-        self.0.get(index).copied().filter(|x| !x.is_nan())
+        let bit = 1u64.checked_shl(index as u32).filter(|bit| self.present & bit != 0)?;
+        self.values.get((self.present & (bit - 1)).count_ones() as usize).copied()
     }
 }
 
 impl FromIterator<Option<f64>> for Metrics {
-    fn from_iter<I: IntoIterator<Item = Option<f64>>>(values: I) -> Self {
-        Self(values.into_iter().map(|x| x.unwrap_or(f64::NAN)).collect())
-    }
-}
-
-impl PartialEq for Metrics {
-    fn eq(&self, other: &Self) -> bool {
-        self.iter().eq(other.iter())
+    /// # Panics
+    /// With more than 64 numbers.
+    fn from_iter<I: IntoIterator<Item = Option<f64>>>(numbers: I) -> Self {
+        let (mut present, mut length, mut values) = (0, 0u8, Vec::new());
+        for number in numbers {
+            assert!(length < 64, "more than 64 metrics");
+            if let Some(value) = number.filter(|x| !x.is_nan()) {
+                present |= 1u64 << length;
+                values.push(value);
+            }
+            length += 1;
+        }
+        Self { present, length, values: values.into() }
     }
 }
 
@@ -139,4 +150,19 @@ pub struct OperatorCount {
     pub survived: u64,
     /// Of the evaluated, those that entered the non-dominated set of all evaluations.
     pub entered_front: u64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Metrics;
+
+    #[test]
+    fn metrics_give_back_what_they_were_given() {
+        let given = |i: usize| (!i.is_multiple_of(3)).then_some(i as f64);
+        let metrics: Metrics = (0..64).map(given).collect();
+        assert!(metrics.iter().eq((0..64).map(given)));
+        assert_eq!((metrics.get(63), metrics.get(62), metrics.get(64)), (None, Some(62.0), None));
+        assert_eq!([Some(f64::NAN), Some(1.0)].into_iter().collect::<Metrics>().get(0), None);
+        assert_eq!(Metrics::default().iter().len(), 0);
+    }
 }
