@@ -8,7 +8,7 @@ use std::path::Path;
 const PREFIX: &str = ".quadrille-";
 const SUFFIX: &str = ".tmp";
 
-/// Whether a file is what a killed [`write`] left behind.
+/// Whether a file is what a killed [`write()`] left behind.
 pub fn is_temporary(path: &Path) -> bool {
     let name = path.file_name().map(|name| name.to_string_lossy());
     name.is_some_and(|name| name.starts_with(PREFIX) && name.ends_with(SUFFIX))
@@ -24,10 +24,10 @@ pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     write_with(path, |out| out.write_all(bytes))
 }
 
-/// As [`write`], for what is made while it is written.
+/// As [`write()`], for what is made while it is written.
 ///
 /// # Errors
-/// As [`write`], and whatever `fill` returns.
+/// As [`write()`], and whatever `fill` returns.
 pub fn write_with(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
