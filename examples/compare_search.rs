@@ -28,7 +28,7 @@ use std::sync::Mutex;
 
 use clap::Parser;
 use quadrille::config::{self, Config};
-use quadrille::evolve::{SampledHypervolume, Violation, hypervolume};
+use quadrille::evolve::Violation;
 use quadrille::grammar::Tokens;
 use quadrille::mesh::canonical::Code;
 use quadrille::objectives::{METRICS, Metric};
@@ -184,14 +184,7 @@ fn feasible(outcomes: &[Outcome]) -> Vec<Vec<f64>> {
 }
 
 fn volume(points: &[Vec<f64>], axes: &Normalisation) -> f64 {
-    let points: Vec<Vec<f64>> = points.iter().map(|p| axes.apply(p)).collect();
-    if axes.ideal.len() <= 4 {
-        let points: Vec<&[f64]> = points.iter().map(Vec::as_slice).collect();
-        return hypervolume(&points, &vec![1.0; axes.ideal.len()]);
-    }
-    let mut sampled = SampledHypervolume::new(axes.ideal.len());
-    points.iter().for_each(|p| sampled.offer(p));
-    sampled.value()
+    axes.hypervolume(points.iter().map(Vec::as_slice))
 }
 
 fn front(outcome: &Outcome) -> Vec<Vec<f64>> {

@@ -4,7 +4,7 @@ use super::config_args::ConfigArgs;
 use super::{CliError, Console};
 use quadrille::mesh::CanonicalMesh;
 use quadrille::random::stream;
-use quadrille::search::{Evaluation, Normalisation, Problem, round_significant};
+use quadrille::search::{Evaluation, Normalisation, Problem};
 use quadrille::study::{Effort, Study};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -71,6 +71,6 @@ fn different(study: &Study, seed: u64, wanted: usize) -> Vec<CanonicalMesh> {
 
 /// To four digits: axes are a scale, not a result.
 fn list(values: &[f64]) -> String {
-    let four = |x: &f64| format!("{}", round_significant(format!("{x:.3e}").parse().unwrap_or(*x)));
+    let four = |x: &f64| format!("{x:.3e}").parse().unwrap_or(*x).to_string();
     format!("[{}]", values.iter().map(four).collect::<Vec<_>>().join(", "))
 }

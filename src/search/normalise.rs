@@ -67,6 +67,20 @@ impl Normalisation {
         let axes = self.ideal.iter().zip(&self.reference);
         objectives.iter().zip(axes).map(|(f, (ideal, reference))| (f - ideal) / (reference - ideal)).collect()
     }
+
+    /// The volume that points dominate below the axes' one, in units of the axes; points better than the axes' zero
+    /// count in full with up to 4 objectives (exact), down to [`LOWER_CORNER`](crate::evolve::LOWER_CORNER) with more (sampled).
+    pub fn hypervolume<'a>(&self, points: impl Iterator<Item = &'a [f64]>) -> f64 {
+        let points: Vec<Vec<f64>> = points.map(|point| self.apply(point)).collect();
+        let dimensions = self.ideal.len();
+        if dimensions > EXACT {
+            let mut sampled = SampledHypervolume::new(dimensions);
+            points.iter().for_each(|point| sampled.offer(point));
+            return sampled.value();
+        }
+        let points: Vec<&[f64]> = points.iter().map(Vec::as_slice).collect();
+        hypervolume(&points, &vec![1.0; dimensions])
+    }
 }
 
 /// The value that a share `q` of the sorted `values` does not exceed (nearest rank).
@@ -129,11 +143,7 @@ impl Volume {
                 points.for_each(|(_, point)| sampled.offer(&self.normalisation.apply(point)));
                 sampled.value()
             }
-            None => {
-                let points: Vec<Vec<f64>> = front.points().map(|p| self.normalisation.apply(p)).collect();
-                let points: Vec<&[f64]> = points.iter().map(Vec::as_slice).collect();
-                hypervolume(&points, &vec![1.0; self.normalisation.ideal.len()])
-            }
+            None => self.normalisation.hypervolume(front.points()),
         };
         // Sums over another set of points may differ in the last bit; a front that improved has not lost volume.
         self.value = self.value.max(value);
