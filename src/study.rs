@@ -23,7 +23,7 @@ use crate::skeleton::{self, InitialError};
 use crate::structure::StructureParams;
 use crate::structure::gridshell::{self, AnalysisError, Response};
 use crate::structure::params::Direction;
-use crate::surface::{self, Surface, SurfaceError};
+use crate::surface::{self, Surface, SurfaceError, SurfaceParams};
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Arc;
@@ -53,10 +53,10 @@ pub struct Study {
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
     /// The surface is faulty.
-    #[error("[surface] {0}")]
+    #[error("{0}")]
     Surface(#[from] SurfaceError),
     /// The domain is faulty.
-    #[error("[domain] {0}")]
+    #[error("{0}")]
     Domain(#[from] DomainError),
     /// Supports that the symmetries of the config do not carry into each other.
     #[error(
@@ -73,11 +73,29 @@ pub enum StudyError {
         image_fixed: String,
     },
     /// There is no initial mesh.
-    #[error("[topology] {0}")]
+    #[error("{0}")]
     Initial(#[from] InitialError),
     /// The initial mesh is not a valid quad mesh.
-    #[error("[topology] initial: {0}")]
+    #[error("topology.initial: {0}")]
     Mesh(#[from] BaseMeshError),
+}
+
+impl StudyError {
+    /// The key of the config that says what is wrong.
+    pub fn key(&self, config: &Config) -> String {
+        match self {
+            Self::Surface(error) => error.key(),
+            Self::Domain(DomainError::NotCovered { .. }) => match &config.surface {
+                SurfaceParams::Height { .. } => "surface.expression".to_owned(),
+                SurfaceParams::Mesh { .. } => "surface.file".to_owned(),
+                _ => "surface.kind".to_owned(),
+            },
+            Self::Domain(error) => error.key(&config.domain),
+            Self::Supports { .. } => "domain.symmetries".to_owned(),
+            Self::Initial(error) => error.key(&config.topology),
+            Self::Mesh(_) => "topology.initial".to_owned(),
+        }
+    }
 }
 
 /// A design after all stages that it passed.

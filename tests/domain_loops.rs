@@ -158,8 +158,14 @@ fn wrong_boundaries_are_refused_by_name() {
             "[[loop]]\nkind = 'polyline'\npoints_m = [[0, 0], [1, 0], [0, 1], [0, 0]]".into(),
             "points 3 and 0 coincide",
         ),
-        ("[[loop]]\nkind = 'polyline'\npoints_m = [[0, 0], [1, nan], [0, 1]]".into(), "y of point 1 is NaN"),
-        ("[[loop]]\nkind = 'polyline'\npoints_m = [[0, 0], [1], [0, 1]]".into(), "point 1 has 1 coordinates"),
+        (
+            "[[loop]]\nkind = 'polyline'\npoints_m = [[0, 0], [1, nan], [0, 1]]".into(),
+            "points_m[1][1] is NaN",
+        ),
+        (
+            "[[loop]]\nkind = 'polyline'\npoints_m = [[0, 0], [1], [0, 1]]".into(),
+            "points_m[1] has 1 coordinates",
+        ),
         (format!("{square}corners = [0, 4]"), "corner 4 does not exist"),
         (format!("{square}corners = [1, 1]"), "corner 1 is listed twice"),
         (format!("{square}corner_angle_deg = 0.0"), "corner_angle_deg"),

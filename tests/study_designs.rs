@@ -9,8 +9,12 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 fn great_court() -> Study {
+    great_court_of(500)
+}
+
+fn great_court_of(panels: usize) -> Study {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("configs/great_court.toml");
-    let sets = ["pattern.panels=500", "search.tokens.max=12"].map(str::to_owned);
+    let sets = [format!("pattern.panels={panels}"), "search.tokens.max=12".to_owned()];
     let config = config::load(&file, &sets).unwrap();
     Study::new(&config, config::folder_of(&file)).unwrap()
 }
@@ -71,6 +75,21 @@ fn boundary_on_its_curves_inside_on_the_surface_corners_sharp() {
         seen += 1;
     }
     assert!(seen >= 20, "only {seen} designs were developed");
+}
+
+/// Two panels meet in the south-west corner, and the first vertex of the south wall comes nearer to the west wall than to its
+/// own: it must not be taken round the corner, which would leave it there on top of the corner's vertex.
+#[test]
+fn no_vertex_of_a_wall_runs_into_the_corner() {
+    let study = great_court_of(2000);
+    let tokens = "PTDTDTPPPTAoTPPPTTTTA".parse().unwrap();
+    let design = study.develop(study.topology(&tokens), Effort::Pattern).unwrap();
+    let at = |v: u32| design.pattern.positions[v as usize];
+    for &[u, v] in &design.pattern.edges {
+        if [u, v].iter().any(|end| design.pattern.corners.contains(end)) {
+            assert!(distance(at(u), at(v)) > 0.1, "{:?} and {:?}", at(u), at(v));
+        }
+    }
 }
 
 #[test]

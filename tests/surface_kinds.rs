@@ -104,6 +104,7 @@ fn wrong_surfaces_are_refused() {
         ("kind = 'height'\nexpression = 'x + radius'", "surface.expression, column 5: unknown name `radius`"),
         ("kind = 'mesh'\nfile = 'nowhere.obj'", "nowhere.obj"),
         ("kind = 'mesh'\nfile = 'broken.obj'", "broken.obj:4: vertex 7 does not exist"),
+        ("kind = 'mesh'\nfile = 'pentagon.obj'", "pentagon.obj:7: the face has 5 vertices"),
         ("kind = 'mesh'\nfile = 'twice.obj'", "twice.obj:5: the face names vertex 1 twice"),
         ("kind = 'mesh'\nfile = 'empty.obj'", "no face"),
     ] {

@@ -27,6 +27,8 @@ use std::time::Instant;
 const TRIES: usize = 200;
 /// Pictures of the first designs, and of the worst.
 const PICTURES: usize = 10;
+/// So many of the slowest designs and of those with the shortest members are named.
+const NAMED: usize = 5;
 
 #[derive(Default)]
 struct Count {
@@ -39,7 +41,10 @@ struct Count {
     off: usize,
     feasible: usize,
     seconds: f64,
-    slowest: f64,
+    /// Seconds and string of each, the slowest first once sorted.
+    times: Vec<(f64, Tokens)>,
+    /// Shortest member over the target length, of each without folds.
+    shortest: Vec<(f64, Tokens)>,
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -78,12 +83,19 @@ fn main() -> Result<(), Box<dyn Error>> {
                 let took = start.elapsed().as_secs_f64();
                 count.developed += 1;
                 count.seconds += took;
-                count.slowest = count.slowest.max(took);
+                count.times.push((took, tokens.clone()));
                 match developed {
                     Ok(pattern) => {
                         let panels = config.pattern.panels;
-                        count.off += usize::from(pattern.panels.len().abs_diff(panels) * 100 > 3 * panels);
+                        if pattern.panels.len().abs_diff(panels) * 100 > 3 * panels {
+                            println!("  {tokens}: {} panels", pattern.panels.len());
+                            count.off += 1;
+                        }
                         let rows = limits::excesses(&pattern, &config.pattern.limits);
+                        let edge = rows.iter().find(|row| row.name == "min_edge_m");
+                        count
+                            .shortest
+                            .extend(edge.map(|row| (row.value / pattern.target_length, tokens.clone())));
                         count.feasible += usize::from(rows.iter().all(|row| row.excess == 0.0));
                         let angle = rows.iter().find(|row| row.name == "min_angle_deg");
                         worst.push((angle.map_or(0.0, |row| row.excess), tokens));
@@ -93,6 +105,12 @@ fn main() -> Result<(), Box<dyn Error>> {
                     }
                     Err(rejection) => {
                         println!("  {tokens}: {rejection}");
+                        if let (true, Ok(pattern)) = (
+                            count.developed <= PICTURES,
+                            shape(&mesh, &study.domain, study.surface.as_ref(), &config.pattern),
+                        ) {
+                            draw(&study, &pattern, folder, &format!("{name}_{}", count.developed))?;
+                        }
                         count.folded += 1;
                         worst.push((1.0 + rejection.measure(), tokens));
                     }
@@ -100,6 +118,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             }
         }
     }
+    count.times.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+    count.shortest.sort_by(|(a, _), (b, _)| a.total_cmp(b));
     report(&name, strings, codes.len(), &count);
     worst.sort_by(|(a, _), (b, _)| b.total_cmp(a));
     for (i, (badness, tokens)) in worst.iter().take(PICTURES).enumerate() {
@@ -126,13 +146,27 @@ fn report(name: &str, strings: usize, codes: usize, count: &Count) {
         count.other
     );
     println!(
-        "  {} developed: {} with folds, {:.1} % without; {:.1} ms each, slowest {:.1} ms",
+        "  {} developed: {} with folds, {:.1} % without; {:.1} ms each",
         count.developed,
         count.folded,
         share(count.developed - count.folded, count.developed),
-        1e3 * count.seconds / count.developed.max(1) as f64,
-        1e3 * count.slowest
+        1e3 * count.seconds / count.developed.max(1) as f64
     );
+    for (seconds, tokens) in count.times.iter().take(NAMED) {
+        println!("  slow: {:.0} ms {tokens}", 1e3 * seconds);
+    }
+    let quantile =
+        |q: usize| count.shortest.get(q * count.shortest.len() / 100).map_or(f64::NAN, |(length, _)| *length);
+    println!(
+        "  shortest member ÷ target length: least {:.2e}, of 10 % of designs below {:.3}, half {:.3}, 90 % {:.3}",
+        quantile(0),
+        quantile(10),
+        quantile(50),
+        quantile(90)
+    );
+    for (length, tokens) in count.shortest.iter().take(NAMED) {
+        println!("  short: {length:.1e} {tokens}");
+    }
     println!(
         "  panels off by more than 3 %: {}; all limits kept by {} ({:.1} %)",
         count.off,

@@ -30,15 +30,10 @@ impl ConfigArgs {
 
     /// Makes a loaded config ready.
     pub fn study(&self, config: &Config) -> Result<Study, CliError> {
-        Study::new(config, self.folder()).map_err(|error| CliError::Input(self.locate(&error.to_string())))
-    }
-
-    /// A message that begins with `[table]`, with the place of that table.
-    fn locate(&self, message: &str) -> String {
-        let table = message.strip_prefix('[').and_then(|rest| rest.split_once(']'));
-        match table.and_then(|(table, _)| config::place_of(&self.config, &self.set, table)) {
-            Some(place) => format!("{place}: {message}"),
-            None => format!("{}: {message}", self.config.display()),
-        }
+        Study::new(config, self.folder()).map_err(|error| {
+            let place = config::place_of(&self.config, &self.set, &error.key(config));
+            let place = place.map_or_else(|| self.config.display().to_string(), |place| place.to_string());
+            CliError::Input(format!("{place}: {error}"))
+        })
     }
 }

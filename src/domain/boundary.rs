@@ -64,6 +64,10 @@ impl Cell {
     }
 }
 
+/// A part of a loop, between two of its corners.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Stretch([f64; 2]);
+
 /// Cells of a loop where its speed is not even.
 const CELLS: usize = 1024;
 
@@ -191,12 +195,23 @@ impl BoundaryLoop {
 
     /// The point of the curve that is closest in plan, or in space where the surface is free.
     pub fn closest_point(&self, point: [f64; 3]) -> [f64; 3] {
-        self.nearest(point).1
+        self.at(self.curve.closest(point, self.surface.is_some()))
     }
 
-    /// [`BoundaryLoop::closest`] and [`BoundaryLoop::closest_point`] in one.
-    pub fn nearest(&self, point: [f64; 3]) -> (f64, [f64; 3]) {
-        let t = self.curve.closest(point, self.surface.is_some());
+    /// The stretch from arc length `from` counter-clockwise to `to`, between two corners; from a corner to itself, or without
+    /// finite ends, the whole loop.
+    pub fn stretch(&self, from: f64, to: f64) -> Stretch {
+        if !(from.is_finite() && to.is_finite()) {
+            return Stretch([0.0, self.curve.period()]);
+        }
+        let (start, end) = (self.parameter(from), self.parameter(to));
+        Stretch([start, if end > start { end } else { end + self.curve.period() }])
+    }
+
+    /// Arc length and place of the point of a stretch that is closest in plan, or in space where the surface is free. What is
+    /// near a corner may be nearer to the other side of it: a vertex of one side is not to go there.
+    pub fn nearest(&self, point: [f64; 3], stretch: Stretch) -> (f64, [f64; 3]) {
+        let t = self.curve.closest_between(point, self.surface.is_some(), stretch.0);
         (self.arc_length(t), self.at(t))
     }
 

@@ -77,18 +77,26 @@ impl Curve {
 
     /// Parameter of the closest point: in space, or in plan when `plan` is set. Ties: the smaller parameter.
     pub(super) fn closest(&self, point: [f64; 3], plan: bool) -> f64 {
+        self.closest_between(point, plan, [0.0, self.period()])
+    }
+
+    /// The same of a stretch between two parameters, the second of which may lie up to a period beyond the end. An ellipse has
+    /// no kink that would part stretches: of it, all points count.
+    pub(super) fn closest_between(&self, point: [f64; 3], plan: bool, [from, to]: [f64; 2]) -> f64 {
         match self {
             Self::Polyline { points } => {
                 let dimensions = if plan { 2 } else { 3 };
+                let count = points.len();
                 let mut best = (f64::INFINITY, 0.0);
-                for i in 0..points.len() {
-                    let (a, b) = (points[i], points[(i + 1) % points.len()]);
-                    let (distance2, share) = closest_on_segment(point, a, b, dimensions);
+                for i in from as usize..to.ceil() as usize {
+                    let (a, b) = (points[i % count], points[(i + 1) % count]);
+                    let ends = [(from - i as f64).max(0.0), (to - i as f64).min(1.0)];
+                    let (distance2, share) = closest_on_part(point, a, b, dimensions, ends);
                     if distance2 < best.0 {
                         best = (distance2, i as f64 + share);
                     }
                 }
-                best.1 % points.len() as f64
+                best.1 % count as f64
             }
             // The plane of the ellipse is horizontal: the height of the point does not matter.
             Self::Ellipse { center, axes, turn } => {
@@ -230,12 +238,23 @@ pub(super) fn signed_area(points: &[[f64; 3]]) -> f64 {
 
 /// Squared distance to a segment and the share of it at which the closest point lies, in the first `dimensions` coordinates.
 pub(super) fn closest_on_segment(p: [f64; 3], a: [f64; 3], b: [f64; 3], dimensions: usize) -> (f64, f64) {
+    closest_on_part(p, a, b, dimensions, [0.0, 1.0])
+}
+
+/// The same of the part of a segment between two shares of it.
+fn closest_on_part(
+    p: [f64; 3],
+    a: [f64; 3],
+    b: [f64; 3],
+    dimensions: usize,
+    [from, to]: [f64; 2],
+) -> (f64, f64) {
     let (mut along, mut length2) = (0.0, 0.0);
     for k in 0..dimensions {
         along += (p[k] - a[k]) * (b[k] - a[k]);
         length2 += (b[k] - a[k]) * (b[k] - a[k]);
     }
-    let share = if length2 > 0.0 { (along / length2).clamp(0.0, 1.0) } else { 0.0 };
+    let share = if length2 > 0.0 { (along / length2).max(from).min(to) } else { from };
     let distance2 = (0..dimensions)
         .map(|k| {
             let d = a[k] + share * (b[k] - a[k]) - p[k];

@@ -1,5 +1,6 @@
 //! What can be wrong with a domain. Loops and points are numbered from 0, as in the config.
 
+use super::params::{DomainParams, LoopParams};
 use crate::io::ReadError;
 
 /// Why a domain is refused.
@@ -9,27 +10,27 @@ pub enum DomainError {
     #[error("domain: no loop; the first [[domain.loop]] is the outer boundary")]
     NoLoop,
     /// A point is not `[x, y]` or `[x, y, z]`.
-    #[error("domain.loop {loop_number}: {what} has {found} coordinates, allowed are [x, y] and [x, y, z]")]
+    #[error("domain.loop[{loop_number}].{what} has {found} coordinates, allowed are [x, y] and [x, y, z]")]
     Coordinates {
         /// The loop.
         loop_number: usize,
-        /// Which point.
+        /// Which point: its key within the loop.
         what: String,
         /// How many numbers it has.
         found: usize,
     },
     /// A number that is not finite.
-    #[error("domain.loop {loop_number}: {what} is {value}, which is not finite")]
+    #[error("domain.loop[{loop_number}].{what} is {value}, which is not finite")]
     NotFinite {
         /// The loop.
         loop_number: usize,
-        /// Which number.
+        /// Which number: its key within the loop.
         what: String,
         /// Its value.
         value: f64,
     },
     /// A length that must be positive.
-    #[error("domain.loop {loop_number}: {key} must be positive, found {value}")]
+    #[error("domain.loop[{loop_number}].{key} must be positive, found {value}")]
     NotPositive {
         /// The loop.
         loop_number: usize,
@@ -39,7 +40,7 @@ pub enum DomainError {
         value: f64,
     },
     /// Fewer than three points.
-    #[error("domain.loop {loop_number}: a polyline needs at least 3 points, found {found}")]
+    #[error("domain.loop[{loop_number}]: a polyline needs at least 3 points, found {found}")]
     TooFewPoints {
         /// The loop.
         loop_number: usize,
@@ -48,7 +49,7 @@ pub enum DomainError {
     },
     /// Two consecutive points coincide in plan.
     #[error(
-        "domain.loop {loop_number}: points {first} and {second} coincide in plan at ({x}, {y}); \
+        "domain.loop[{loop_number}]: points {first} and {second} coincide in plan at ({x}, {y}); \
              the last point is joined to the first by itself"
     )]
     ZeroEdge {
@@ -64,7 +65,7 @@ pub enum DomainError {
         y: f64,
     },
     /// Two edges of one polyline cross or touch.
-    #[error("domain.loop {loop_number}: the boundary crosses or touches itself: edge {}–{} meets edge {}–{} near ({x:.6}, {y:.6})",
+    #[error("domain.loop[{loop_number}]: the boundary crosses or touches itself: edge {}–{} meets edge {}–{} near ({x:.6}, {y:.6})",
             first[0], first[1], second[0], second[1])]
     SelfCrossing {
         /// The loop.
@@ -79,7 +80,7 @@ pub enum DomainError {
         y: f64,
     },
     /// A corner index beyond the points.
-    #[error("domain.loop {loop_number}: corner {corner} does not exist, the points are 0 to {last}")]
+    #[error("domain.loop[{loop_number}]: corner {corner} does not exist, the points are 0 to {last}")]
     NoSuchCorner {
         /// The loop.
         loop_number: usize,
@@ -89,7 +90,7 @@ pub enum DomainError {
         last: usize,
     },
     /// The same corner twice.
-    #[error("domain.loop {loop_number}: corner {corner} is listed twice")]
+    #[error("domain.loop[{loop_number}]: corner {corner} is listed twice")]
     CornerTwice {
         /// The loop.
         loop_number: usize,
@@ -97,7 +98,7 @@ pub enum DomainError {
         corner: usize,
     },
     /// An angle limit outside 0..180.
-    #[error("domain.loop {loop_number}: corner_angle_deg must lie between 0 and 180, found {value}")]
+    #[error("domain.loop[{loop_number}]: corner_angle_deg must lie between 0 and 180, found {value}")]
     CornerAngle {
         /// The loop.
         loop_number: usize,
@@ -131,7 +132,7 @@ pub enum DomainError {
         outer: usize,
     },
     /// The file cannot be read.
-    #[error("domain.loop {loop_number}: {error}")]
+    #[error("domain.loop[{loop_number}]: {error}")]
     File {
         /// The loop.
         loop_number: usize,
@@ -140,7 +141,7 @@ pub enum DomainError {
     },
     /// The file does not have this polyline.
     #[error(
-        "domain.loop {loop_number}: {file} has {found} polylines (`l`), number {polyline} (from 0) does not exist"
+        "domain.loop[{loop_number}]: {file} has {found} polylines (`l`), number {polyline} (from 0) does not exist"
     )]
     NoSuchPolyline {
         /// The loop.
@@ -154,7 +155,7 @@ pub enum DomainError {
     },
     /// The polyline does not return to its first point.
     #[error(
-        "domain.loop {loop_number}: {file}:{line}: the polyline is open: it must end in its first vertex"
+        "domain.loop[{loop_number}]: {file}:{line}: the polyline is open: it must end in its first vertex"
     )]
     OpenPolyline {
         /// The loop.
@@ -165,7 +166,7 @@ pub enum DomainError {
         line: usize,
     },
     /// The surface does not reach everywhere.
-    #[error("the surface does not cover the domain: no finite height at ({x:.6}, {y:.6}); {extent}")]
+    #[error("surface: it does not cover the domain: no finite height at ({x:.6}, {y:.6}); {extent}")]
     NotCovered {
         /// Where.
         x: f64,
@@ -182,4 +183,44 @@ pub enum DomainError {
         /// What has no image.
         reason: String,
     },
+}
+
+impl DomainError {
+    /// The key of the config that says what is wrong. Points of a file are the file's.
+    pub fn key(&self, params: &DomainParams) -> String {
+        match self {
+            Self::NoLoop => "domain.loop".to_owned(),
+            Self::NotCovered { .. } => "surface".to_owned(),
+            Self::NotSymmetric { .. } => "domain.symmetries".to_owned(),
+            Self::Coordinates { loop_number, what, .. } | Self::NotFinite { loop_number, what, .. } => {
+                format!("domain.loop[{loop_number}].{what}")
+            }
+            Self::NotPositive { loop_number, key, .. } => format!("domain.loop[{loop_number}].{key}"),
+            Self::ZeroEdge { loop_number, second, .. } => point(params, *loop_number, *second),
+            Self::SelfCrossing { loop_number, first, .. } => point(params, *loop_number, first[0]),
+            Self::TooFewPoints { loop_number, .. } => points(params, *loop_number),
+            Self::NoSuchCorner { loop_number, .. } | Self::CornerTwice { loop_number, .. } => {
+                format!("domain.loop[{loop_number}].corners")
+            }
+            Self::CornerAngle { loop_number, .. } => format!("domain.loop[{loop_number}].corner_angle_deg"),
+            Self::NoSuchPolyline { loop_number, .. } => format!("domain.loop[{loop_number}].polyline"),
+            Self::File { loop_number, .. } | Self::OpenPolyline { loop_number, .. } => {
+                format!("domain.loop[{loop_number}].file")
+            }
+            Self::LoopsMeet { second: loop_number, .. }
+            | Self::HoleOutside { loop_number }
+            | Self::HoleInHole { inner: loop_number, .. } => format!("domain.loop[{loop_number}]"),
+        }
+    }
+}
+
+/// The key that gives the points of a loop.
+fn points(params: &DomainParams, loop_number: usize) -> String {
+    let is_file = matches!(params.loops.get(loop_number), Some(LoopParams::Obj { .. }));
+    format!("domain.loop[{loop_number}].{}", if is_file { "file" } else { "points_m" })
+}
+
+/// The key of one point of a loop.
+fn point(params: &DomainParams, loop_number: usize, point: usize) -> String {
+    format!("{}[{point}]", points(params, loop_number))
 }

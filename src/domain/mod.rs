@@ -8,7 +8,7 @@ pub mod params;
 mod read;
 mod symmetry;
 
-pub use boundary::BoundaryLoop;
+pub use boundary::{BoundaryLoop, Stretch};
 pub use error::DomainError;
 pub use params::{Corners, DomainParams, LoopParams, Symmetry};
 

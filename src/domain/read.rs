@@ -17,7 +17,7 @@ pub(super) fn curve(
             let points = points_m
                 .iter()
                 .enumerate()
-                .map(|(i, p)| point(number, p, || format!("point {i}")))
+                .map(|(i, p)| point(number, p, || format!("points_m[{i}]")))
                 .collect::<Result<Vec<_>, _>>()?;
             polyline(number, points, corners, *corner_angle_deg)
         }
@@ -61,8 +61,8 @@ fn point(loop_number: usize, given: &[f64], what: impl Fn() -> String) -> Result
         return Err(DomainError::Coordinates { loop_number, what: what(), found: given.len() });
     }
     let mut position = [0.0; 3];
-    for ((value, &number), axis) in position.iter_mut().zip(given).zip(["x", "y", "z"]) {
-        *value = finite(loop_number, || format!("{axis} of {}", what()), number)?;
+    for (k, (value, &number)) in position.iter_mut().zip(given).enumerate() {
+        *value = finite(loop_number, || format!("{}[{k}]", what()), number)?;
     }
     Ok(position)
 }

@@ -6,7 +6,7 @@ use super::params::{RelaxKind, RelaxParams};
 use super::pattern::Panel;
 use super::place::Placed;
 use super::vector::{Vec3, add, cross, dot, norm, scale, sub};
-use crate::domain::Domain;
+use crate::domain::{Domain, Stretch};
 use crate::surface::{Surface, SurfaceKind};
 
 /// A step is halved at most this often, then dropped.
@@ -114,6 +114,8 @@ struct Slider {
     position: usize,
     /// Arc lengths between which it may move: its neighbouring corners'.
     range: [f64; 2],
+    /// The curve between them.
+    stretch: Stretch,
 }
 
 struct Sweep<'a> {
@@ -150,7 +152,7 @@ impl<'a> Sweep<'a> {
         let sliders: Vec<Slider> = if is_free {
             Vec::new()
         } else {
-            mesh.loops.iter().enumerate().flat_map(|(label, held)| sliders_of(held, label)).collect()
+            mesh.loops.iter().enumerate().flat_map(|(label, held)| sliders_of(held, domain, label)).collect()
         };
         let mut slider_of = vec![u32::MAX; n];
         for (i, slider) in sliders.iter().enumerate() {
@@ -254,14 +256,14 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// Where all boundary vertices go: sliders to the closest point of their curve, corners nowhere.
+    /// Where all boundary vertices go: sliders to the closest point of their side, corners nowhere.
     fn held_places(&mut self) -> Vec<(u32, Vec3)> {
         let mut held = Vec::new();
         for (i, slider) in self.sliders.iter().enumerate() {
             let curve = &self.domain.loops[slider.label];
             let s = self.placed.along[slider.label][slider.position];
             let length = curve.length();
-            let (found, place) = curve.nearest(self.next[slider.vertex as usize]);
+            let (found, place) = curve.nearest(self.next[slider.vertex as usize], slider.stretch);
             let slide = (found - s) - length * libm::round((found - s) / length);
             let next = (s + slide).clamp(slider.range[0], slider.range[1]);
             self.slides[i] = next - s;
@@ -389,7 +391,7 @@ impl<'a> Sweep<'a> {
     }
 }
 
-fn sliders_of(held: &BoundaryLoop, label: usize) -> Vec<Slider> {
+fn sliders_of(held: &BoundaryLoop, domain: &Domain, label: usize) -> Vec<Slider> {
     let unbounded = [f64::NEG_INFINITY, f64::INFINITY];
     let range = |position: usize| {
         let after = held.anchors.partition_point(|&(p, _)| p <= position);
@@ -401,7 +403,11 @@ fn sliders_of(held: &BoundaryLoop, label: usize) -> Vec<Slider> {
     };
     (0..held.vertices.len())
         .filter(|position| !held.anchors.iter().any(|(p, _)| p == position))
-        .map(|position| Slider { vertex: held.vertices[position], label, position, range: range(position) })
+        .map(|position| {
+            let range = range(position);
+            let stretch = domain.loops[label].stretch(range[0], range[1]);
+            Slider { vertex: held.vertices[position], label, position, range, stretch }
+        })
         .collect()
 }
 

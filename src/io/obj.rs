@@ -14,6 +14,8 @@ use std::path::Path;
 pub struct ObjFile {
     /// Vertex positions, in the file's unit (metres are assumed).
     pub vertices: Vec<[f64; 3]>,
+    /// For each vertex, its line in the file, from 1.
+    pub vertex_lines: Vec<usize>,
     /// Faces of three vertices or more.
     pub faces: Vec<Vec<u32>>,
     /// For each face, its line in the file, from 1.
@@ -91,7 +93,10 @@ pub fn parse(text: &str) -> Result<ObjFile, (usize, String)> {
         let Some(keyword) = words.next() else { continue };
         let fault = |reason: String| (line, reason);
         match keyword {
-            "v" => obj.vertices.push(vertex(words).map_err(fault)?),
+            "v" => {
+                obj.vertices.push(vertex(words).map_err(fault)?);
+                obj.vertex_lines.push(line);
+            }
             "f" => {
                 obj.faces.push(corners(words, obj.vertices.len(), 3, "face").map_err(fault)?);
                 obj.face_lines.push(line);

@@ -74,6 +74,16 @@ impl BaseMeshError {
             _ => None,
         }
     }
+
+    /// The vertex at fault, where it is not a face.
+    pub fn vertex(&self) -> Option<usize> {
+        match self {
+            Self::NotFinite { vertex }
+            | Self::NonManifoldVertex { vertex }
+            | Self::VertexWithoutFace { vertex } => Some(*vertex as usize),
+            _ => None,
+        }
+    }
 }
 
 /// An initial mesh and the start of its marker.

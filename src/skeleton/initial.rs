@@ -12,10 +12,10 @@ use std::path::Path;
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub enum InitialError {
     /// The skeleton fails.
-    #[error("{0}")]
+    #[error("topology.initial: {0}")]
     Skeleton(#[from] SkeletonError),
     /// The file cannot be read.
-    #[error("{0}")]
+    #[error("topology.initial.file: {0}")]
     File(#[from] ReadError),
     /// The mesh is no valid coarse mesh.
     #[error("topology.initial: {0}")]
@@ -82,6 +82,21 @@ pub enum InitialError {
     },
 }
 
+impl InitialError {
+    /// The key of the config that says what is wrong.
+    pub fn key(&self, params: &TopologyParams) -> String {
+        match (self, &params.initial) {
+            (Self::Mesh(BaseMeshError::MarkerNotAnEdge { .. }), _) => "topology.marker".to_owned(),
+            (Self::Mesh(error), Given::Inline { .. }) => match error.face() {
+                Some(face) => format!("topology.initial.faces[{face}]"),
+                None => "topology.initial".to_owned(),
+            },
+            (_, Given::File { .. }) => "topology.initial.file".to_owned(),
+            _ => "topology.initial".to_owned(),
+        }
+    }
+}
+
 /// The initial mesh of a config on its domain, valid and with its corners marked: boundary loop `k` of the mesh is loop `k` of the
 /// domain. Files are relative to `base_dir`.
 ///
@@ -133,13 +148,16 @@ pub fn read(file: &Path) -> Result<BaseMesh, ReadError> {
     if file.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj")) {
         let obj = obj::read(file)?;
         let base = BaseMesh { vertices: obj.vertices, faces: obj.faces, ..BaseMesh::default() };
-        return match InitialMesh::from_base(&base) {
-            Ok(_) => Ok(base),
-            Err(error) => Err(match error.face().and_then(|face| obj.face_lines.get(face)) {
-                Some(&line) => ReadError::Line { file: file.to_owned(), line, reason: error.to_string() },
-                None => content(error.to_string()),
-            }),
-        };
+        InitialMesh::from_base(&base).map_err(|error| {
+            let at_face = error.face().and_then(|face| obj.face_lines.get(face));
+            let line = at_face.or_else(|| error.vertex().and_then(|vertex| obj.vertex_lines.get(vertex)));
+            let reason = format!("{error} (vertices and faces counted from 0)");
+            match line {
+                Some(&line) => ReadError::Line { file: file.to_owned(), line, reason },
+                None => content(reason),
+            }
+        })?;
+        return Ok(base);
     }
     let text = String::from_utf8(crate::io::read_bytes(file)?).map_err(|e| content(e.to_string()))?;
     let base = match serde_json::from_str::<serde_json::Value>(&text) {

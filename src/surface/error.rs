@@ -7,7 +7,7 @@ use std::path::PathBuf;
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub enum SurfaceError {
     /// A length that must be positive and finite is not.
-    #[error("{key} must be a positive finite length, found {value}")]
+    #[error("surface.{key} must be a positive finite length, found {value}")]
     NotPositive {
         /// The key of the config.
         key: &'static str,
@@ -15,7 +15,7 @@ pub enum SurfaceError {
         value: f64,
     },
     /// A number that must be finite is not.
-    #[error("{key} must be finite, found {value}")]
+    #[error("surface.{key} must be finite, found {value}")]
     NotFinite {
         /// The key of the config.
         key: &'static str,
@@ -26,14 +26,25 @@ pub enum SurfaceError {
     #[error("surface.{0}")]
     Expression(#[from] super::expression::ExpressionError),
     /// The mesh file cannot be read.
-    #[error("{0}")]
+    #[error("surface.file: {0}")]
     File(#[from] ReadError),
     /// The mesh has no face with an area.
-    #[error("{}: the mesh has no face that could carry a pattern", file.display())]
+    #[error("surface.file: {}: the mesh has no face that could carry a pattern", file.display())]
     NoFaces {
         /// The file.
         file: PathBuf,
     },
+}
+
+impl SurfaceError {
+    /// The key of the config that says what is wrong.
+    pub fn key(&self) -> String {
+        match self {
+            Self::NotPositive { key, .. } | Self::NotFinite { key, .. } => format!("surface.{key}"),
+            Self::Expression(error) => format!("surface.{}", error.key),
+            Self::File(_) | Self::NoFaces { .. } => "surface.file".to_owned(),
+        }
+    }
 }
 
 /// `value` if it is positive and finite.

@@ -7,7 +7,7 @@ use crate::io::ReadError;
 use crate::io::obj::{self, ObjFile};
 use std::path::Path;
 
-/// A mesh as a surface. Quads are cut along their shorter diagonal, larger faces into fans; vertices may be unwelded.
+/// A mesh as a surface. Quads are cut along their shorter diagonal; vertices may be unwelded.
 #[derive(Clone, Debug)]
 pub struct MeshSurface {
     tree: TriangleTree,
@@ -25,11 +25,11 @@ impl MeshSurface {
     /// A file that cannot be read, with the line at fault; a file without faces.
     pub fn read(file: &Path) -> Result<Self, SurfaceError> {
         let obj = obj::read(file)?;
-        repeated_vertex(&obj, file)?;
+        check_faces(&obj, file)?;
         Self::new(&obj.vertices, &obj.faces).ok_or_else(|| SurfaceError::NoFaces { file: file.to_owned() })
     }
 
-    /// A mesh from its arrays; faces without area do not count. `None` if none is left.
+    /// A mesh from its triangles and quads; faces without area do not count. `None` if none is left.
     pub fn new(vertices: &[[f64; 3]], faces: &[Vec<u32>]) -> Option<Self> {
         let mut triangles = Vec::new();
         let mut normals = Vec::new();
@@ -59,13 +59,18 @@ impl MeshSurface {
     }
 }
 
-/// Refuses a face that names a vertex twice.
-fn repeated_vertex(obj: &ObjFile, file: &Path) -> Result<(), SurfaceError> {
+/// Refuses faces that are neither triangles nor quads, and those that name a vertex twice.
+fn check_faces(obj: &ObjFile, file: &Path) -> Result<(), SurfaceError> {
     for (face, &line) in obj.faces.iter().zip(&obj.face_lines) {
-        if let Some(v) = face.iter().enumerate().find_map(|(i, v)| face[..i].contains(v).then_some(v)) {
-            let reason = format!("the face names vertex {} twice", v + 1);
-            return Err(ReadError::Line { file: file.to_owned(), line, reason }.into());
-        }
+        let twice = face.iter().enumerate().find_map(|(i, v)| face[..i].contains(v).then_some(v));
+        let reason = match (face.len(), twice) {
+            (_, Some(v)) => format!("the face names vertex {} twice", v + 1),
+            (3 | 4, None) => continue,
+            (count, None) => format!(
+                "the face has {count} vertices; allowed: triangles and quads (export without n-gons, or triangulate)"
+            ),
+        };
+        return Err(ReadError::Line { file: file.to_owned(), line, reason }.into());
     }
     Ok(())
 }
@@ -75,10 +80,12 @@ fn cut(vertices: &[[f64; 3]], face: &[u32]) -> Vec<[[f64; 3]; 3]> {
     let p = |i: usize| vertices[face[i] as usize];
     let diagonal =
         |i: usize, j: usize| (0..3).map(|k| (p(i)[k] - p(j)[k]) * (p(i)[k] - p(j)[k])).sum::<f64>();
-    if face.len() == 4 && diagonal(1, 3) < diagonal(0, 2) {
-        return vec![[p(1), p(2), p(3)], [p(1), p(3), p(0)]];
+    match face.len() {
+        3 => vec![[p(0), p(1), p(2)]],
+        4 if diagonal(1, 3) < diagonal(0, 2) => vec![[p(1), p(2), p(3)], [p(1), p(3), p(0)]],
+        4 => vec![[p(0), p(1), p(2)], [p(0), p(2), p(3)]],
+        _ => Vec::new(),
     }
-    (1..face.len().saturating_sub(1)).map(|i| [p(0), p(i), p(i + 1)]).collect()
 }
 
 /// Half the cross product of two sides.

@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 #[error("{key}, column {}: {reason}\n  {text}\n  {}^", position + 1, " ".repeat(*position))]
 pub struct ExpressionError {
-    /// Which text of the config: `expression`, or `let` with its name.
+    /// Which text of the config: `expression`, `constants.h`, or `let[0][1]`, the definition of the first name.
     pub key: String,
     /// The text.
     pub text: String,
@@ -275,7 +275,7 @@ mod tests {
         assert!(fails(&[("a b", 1.0)], &[]).contains("not a name"));
         assert!(fails(&[("a", 1.0)], &[["a", "x"]]).contains("`a` is already"));
         assert!(fails(&[], &[["r", "q"], ["q", "x"]]).contains("unknown name `q`"));
-        assert!(fails(&[], &[["r", "x +"]]).contains("let r"));
+        assert!(fails(&[], &[["r", "x +"]]).contains("let[0][1]"));
     }
 
     #[test]

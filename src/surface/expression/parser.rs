@@ -43,10 +43,11 @@ pub(super) fn program(
     }
     let mut steps = Vec::new();
     for (i, [name, definition]) in lets.iter().enumerate() {
-        let key = format!("let {name}");
-        steps.extend(read(definition, &names).map_err(|fault| error(&key, definition, fault))?);
+        let defined = read(definition, &names);
+        steps.extend(defined.map_err(|fault| error(&format!("let[{i}][1]"), definition, fault))?);
         steps.push(Op::Store);
-        declare(&mut names, name, Op::Load(i)).map_err(|reason| error(&key, name, (0, reason)))?;
+        let declared = declare(&mut names, name, Op::Load(i));
+        declared.map_err(|reason| error(&format!("let[{i}][0]"), name, (0, reason)))?;
     }
     steps.extend(read(text, &names).map_err(|fault| error("expression", text, fault))?);
     Ok(steps)
