@@ -223,4 +223,8 @@ fn summarise(study: &Study, outcome: &Outcome, folder: &Folder, clock: Instant, 
     if outcome.front.is_empty() {
         console.always("no feasible design was found; history.csv says why each one failed");
     }
+    let folder = folder.path().display();
+    console.note(&format!(
+        "open {folder}/report.html in a browser; `quadrille explain {folder} ID` says what governs a design"
+    ));
 }
