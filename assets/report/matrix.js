@@ -136,13 +136,14 @@ function startMatrix() {
   onWidth(box, layout);
 }
 
-/** Ticks whose labels fit side by side. */
+/** Ticks whose labels, at 7 pixels a digit, neither touch one another nor leave their cell. */
 function sparse(scale, width) {
-  for (const count of [4, 3, 2]) {
-    const values = scale.ticks(count), format = ticksOf(scale, count);
-    if (d3.max(values, (v) => format(v).length) * 7.5 * values.length < width) return values;
-  }
-  return scale.ticks(1).slice(0, 1);
+  const values = [4, 3, 2, 1].map((count) => scale.ticks(count)).find((ticks) => {
+    const format = ticksOf(scale), half = d3.max(ticks, (v) => format(v).length) * 3.5;
+    const room = [0, ...ticks.map(scale), width];
+    return d3.pairs(room).every(([a, b], gap) => b - a > (gap === 0 || gap === ticks.length ? half : 2 * half + 4));
+  });
+  return values ?? [d3.median(scale.domain())];
 }
 
 /** Rank correlation of pairs; ties share their mean rank. Null for fewer than five pairs or a constant. */
