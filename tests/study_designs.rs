@@ -77,6 +77,20 @@ fn boundary_on_its_curves_inside_on_the_surface_corners_sharp() {
     assert!(seen >= 20, "only {seen} designs were developed");
 }
 
+/// A boundary of many points without corners: its pattern keeps to it all round.
+#[test]
+fn a_smooth_polyline_is_followed() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/skeleton/blob.toml");
+    let config = config::load(&file, &["pattern.panels=400".to_owned()]).unwrap();
+    let study = Study::new(&config, config::folder_of(&file)).unwrap();
+    let design = study.develop(study.topology(&"".parse().unwrap()), Effort::Pattern).unwrap();
+    let vertices = &design.pattern.loops[0];
+    let at = |i: usize| design.pattern.positions[vertices[i % vertices.len()] as usize];
+    let longest = (0..vertices.len()).map(|i| distance(at(i), at(i + 1))).fold(0.0, f64::max);
+    let even = study.domain.loops[0].length() / vertices.len() as f64;
+    assert!(longest < 2.0 * even, "{longest} m where {even} m would be even");
+}
+
 /// Two panels meet in the south-west corner, and the first vertex of the south wall comes nearer to the west wall than to its
 /// own: it must not be taken round the corner, which would leave it there on top of the corner's vertex.
 #[test]

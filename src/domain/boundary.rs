@@ -198,10 +198,11 @@ impl BoundaryLoop {
         self.at(self.curve.closest(point, self.surface.is_some()))
     }
 
-    /// The stretch from arc length `from` counter-clockwise to `to`, between two corners; from a corner to itself, or without
-    /// finite ends, the whole loop.
+    /// The stretch from arc length `from` counter-clockwise to `to`, two corners; the whole loop if they are a length apart (a
+    /// corner and itself) or not finite.
     pub fn stretch(&self, from: f64, to: f64) -> Stretch {
-        if !(from.is_finite() && to.is_finite()) {
+        let part = (to - from) / self.length;
+        if !(part > 0.0 && part < 1.0 - 1e-9) {
             return Stretch([0.0, self.curve.period()]);
         }
         let (start, end) = (self.parameter(from), self.parameter(to));
