@@ -75,7 +75,8 @@ fn sized_height_is_the_least_that_meets_all() {
         assert!(response.height_rounded_m >= response.height_m);
         let again = analyse(&pattern, &at_height(response.height_m)).unwrap();
         assert_eq!(again.mass_kg, response.mass_kg);
-        assert_eq!(again.deflection_m, response.deflection_m);
+        // Sizing comes to this height from its neighbours: the same but for the tolerance of second order.
+        assert!((again.deflection_m / response.deflection_m - 1.0).abs() < 1e-6);
         assert!((again.buckling_factor / response.buckling_factor - 1.0).abs() < 1e-6);
     }
 }

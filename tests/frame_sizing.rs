@@ -8,7 +8,7 @@ use quadrille::geometry::Pattern;
 use quadrille::random;
 use quadrille::structure::gridshell::{AnalysisError, GridshellModel, analyse};
 use quadrille::structure::params::{HeightParams, Quantity, StructureParams};
-use quadrille::structure::second_order::Room;
+use quadrille::structure::second_order::{Aim, Room};
 use quadrille::structure::solver::Solver;
 use std::collections::BTreeMap;
 
@@ -185,5 +185,6 @@ fn settles(pattern: &Pattern, params: &StructureParams) -> bool {
     let mut f = vec![0.0; solver.system().unknowns()];
     solver.load_vector(&cases, &loads, &mut f);
     let mut u = solver.first_order(&f);
-    solver.iterate_second_order(&f, &mut u, 1e-6, &mut Room::default())
+    let aim = Aim { second_order: true, tolerance: 1e-6 };
+    solver.iterate(&f, &mut u, aim, &mut Room::default())
 }

@@ -132,8 +132,8 @@ impl<'a, 'm> Lanczos<'a, 'm> {
         Self {
             block,
             most: (8 * block).max(40),
-            v: Columns::new(n),
-            w: Columns::new(n),
+            v: Columns::with_room(n, (8 * block).max(40)),
+            w: Columns::with_room(n, (8 * block).max(40)),
             t: DMatrix::zeros(0, 0),
             rng: random::stream(0x6275_636b, 0, 0),
             local: search.tolerance > LOCAL,

@@ -20,9 +20,9 @@ pub struct Columns {
 }
 
 impl Columns {
-    /// No columns yet.
-    pub fn new(n: usize) -> Self {
-        Self { n, data: Vec::new() }
+    /// No columns yet, room for so many.
+    pub fn with_room(n: usize, count: usize) -> Self {
+        Self { n, data: Vec::with_capacity(n * count) }
     }
 
     /// How many columns.

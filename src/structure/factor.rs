@@ -36,10 +36,10 @@ impl Factor {
             Default::default(),
         );
         let memory = MemBuffer::try_new(scratch).map_err(|_| TooLarge)?;
-        let mut values = Vec::new();
-        values.try_reserve_exact(symbolic.len_val()).map_err(|_| TooLarge)?;
-        values.resize(symbolic.len_val(), 0.0);
-        Ok(Self { values, memory, room: Vec::new() })
+        // Whether it fits; then zeros that the kernel gives when they are first written to, which costs half as much as
+        // to write them here.
+        Vec::<f64>::new().try_reserve_exact(symbolic.len_val()).map_err(|_| TooLarge)?;
+        Ok(Self { values: vec![0.0; symbolic.len_val()], memory, room: Vec::new() })
     }
 
     /// Factorises the matrix with these values.

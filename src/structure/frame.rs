@@ -104,7 +104,7 @@ pub fn frame(model: &FrameModel, analysis: &FrameAnalysis) -> Result<FrameResult
     let modes = buckling::modes(&mut solver, &axial, search)?;
     let result = if analysis.order == 2 {
         let u = solver
-            .second_order(&f, &first, SECOND_ORDER_TOLERANCE)
+            .second_order(&f, &axial, SECOND_ORDER_TOLERANCE)
             .map_err(|reason| unstable(&mut solver, &axial, reason))?;
         finite(&u)?;
         solver.axial_forces(&u, &mut axial);

@@ -1,8 +1,9 @@
 //! Second order: (K + Kg(N)) u = f where N are the axial forces of u itself.
 //!
-//! Two ways. With the factor of K alone, all combinations together: u ← K⁻¹ (f − Kg(N(u)) u), which contracts like 1/λ
-//! and is what a search uses. Factor by factor: each step solves with K + Kg(N) of the step before; it works up to the
-//! critical load, costs a factorisation a step, and is what `frame` and the cases close to the critical load use.
+//! Two ways. With a factor of P, all combinations together: u ← u + P⁻¹ (f − (K + Kg(N(u))) u), which is what a search
+//! uses. With P = K it contracts like 1/λ; with the K of another height about as that differs from this one's, so that
+//! one factor serves several heights. Factor by factor: each step solves with K + Kg(N) of the step before; it works up
+//! to the critical load, costs a factorisation a step, and is what `frame` and the cases close to the critical load use.
 //!
 //! That an iteration settles does not prove that K + Kg is positive definite: motions that the load does not excite
 //! are not seen. Whether it is, is for a Cholesky factorisation of K + Kg at the settled N to tell.
@@ -18,7 +19,7 @@ pub enum Unstable {
     NoConvergence,
 }
 
-/// Steps of the iteration with the factor of K; those that shrink the change so slowly that it would not do leave
+/// Steps of the iteration with one factor; those that shrink the change so slowly that it would not do leave
 /// earlier.
 const MOST: usize = 40;
 /// Steps after which the change must have shrunk to a [`PATIENCE`]-th power of [`SLOWEST`].
@@ -59,35 +60,37 @@ impl Change {
     }
 }
 
+/// What an iteration is to find.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Aim {
+    /// Whether Kg(N(u)) counts: second order, else first.
+    pub second_order: bool,
+    /// Share of their largest by which neither u nor N may still change.
+    pub tolerance: f64,
+}
+
 impl Solver<'_> {
-    /// Second order with the factor of K alone, for several columns at once, each accelerated by its own last step
-    /// (Anderson 1965, depth 1). `u` comes in as the first-order displacements and goes out as those of second order,
-    /// when neither N nor u is going to change by more than `tolerance` of its largest. Gives false if that is not
-    /// in sight.
-    pub fn iterate_second_order(
-        &mut self,
-        f: &[f64],
-        u: &mut [f64],
-        tolerance: f64,
-        room: &mut Room,
-    ) -> bool {
+    /// First or second order with the factor at hand, be it of K, of K + Kg or of the K of similar sections, for
+    /// several columns at once, each accelerated by its own last step (Anderson 1965, depth 1). `u` comes in as a first
+    /// guess and goes out as the displacements. Gives false if they are not in sight.
+    pub fn iterate(&mut self, f: &[f64], u: &mut [f64], aim: Aim, room: &mut Room) -> bool {
         let n = self.system().unknowns();
         room.image.resize(f.len(), 0.0);
         room.change.resize(f.len(), 0.0);
         let mut before: Option<Change> = None;
         let mut first = 0.0;
         for step in 0..MOST {
-            for ((image, f), u) in room.image.chunks_mut(n).zip(f.chunks(n)).zip(u.chunks(n)) {
+            room.change.copy_from_slice(f);
+            for (left, u) in room.change.chunks_mut(n).zip(u.chunks(n)) {
                 self.axial_forces(u, &mut room.axial);
-                self.minus_geometric(&room.axial, u, image);
-                image.iter_mut().zip(f).for_each(|(r, f)| *r += f);
+                self.subtract_forces(u, aim.second_order.then_some(room.axial.as_slice()), left);
             }
-            self.solve(&mut room.image);
-            for ((change, image), u) in room.change.iter_mut().zip(&room.image).zip(u.iter()) {
-                *change = image - u;
+            self.solve_as_factorised(&mut room.change);
+            for ((image, change), u) in room.image.iter_mut().zip(&room.change).zip(u.iter()) {
+                *image = u + change;
             }
             let now = self.largest_change(n, room);
-            if now.settled(before, tolerance) {
+            if now.settled(before, aim.tolerance) {
                 u.copy_from_slice(&room.image);
                 return u.iter().all(|v| v.is_finite());
             }
@@ -125,23 +128,22 @@ impl Solver<'_> {
         worst
     }
 
-    /// Second order, factor by factor: (K + Kg(N)) u = f with N of u, from the first-order N, until N changes by no
+    /// Second order, factor by factor: (K + Kg(N)) u = f with N of u, from the `first`-order N, until N changes by no
     /// more than `tolerance` × max |N|. The last factor proves that the answer is stable.
     ///
     /// # Errors
     /// [`Unstable`] if K + Kg is not positive definite, or N does not settle.
     pub fn second_order(&mut self, f: &[f64], first: &[f64], tolerance: f64) -> Result<Vec<f64>, Unstable> {
         const MOST: usize = 200;
-        let mut axial = Vec::new();
-        self.axial_forces(first, &mut axial);
+        let mut axial = first.to_vec();
         let mut next = Vec::new();
         for _ in 0..MOST {
             self.factorise_shifted(&axial, 1.0).map_err(|_| Unstable::PastCritical)?;
             let mut u = f.to_vec();
-            self.solve_shifted(&mut u);
+            self.solve_as_factorised(&mut u);
             let mut residual = f.to_vec();
             self.subtract_forces(&u, Some(&axial), &mut residual);
-            self.solve_shifted(&mut residual);
+            self.solve_as_factorised(&mut residual);
             for (u, correction) in u.iter_mut().zip(&residual) {
                 *u += correction;
             }

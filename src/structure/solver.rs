@@ -27,12 +27,24 @@ pub struct Solver<'m> {
     sections: Vec<Section>,
     stiffness: Vec<Stiffness>,
     matrix: Vec<f64>,
+    /// Whether `matrix` is K with the sections in use.
+    assembled: bool,
     /// K + s Kg.
     shifted: Vec<f64>,
     /// There is room for one factor only: it is by far the largest thing here.
     factor: Factor,
-    /// Whether the factor is that of K; else it is that of the last K + s Kg.
-    of_stiffness: bool,
+    factored: Factored,
+}
+
+/// What the factor is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Factored {
+    /// Nothing of use: none was made yet, or the last one failed.
+    Nothing,
+    /// K with the sections in use.
+    Stiffness,
+    /// Another positive definite matrix: K + s Kg, or one with former sections.
+    Other,
 }
 
 impl<'m> Solver<'m> {
@@ -48,9 +60,10 @@ impl<'m> Solver<'m> {
             sections: Vec::new(),
             stiffness: Vec::with_capacity(model.members().len()),
             matrix: vec![0.0; system.values()],
+            assembled: false,
             shifted: Vec::new(),
             factor,
-            of_stiffness: false,
+            factored: Factored::Nothing,
             system,
         })
     }
@@ -80,8 +93,7 @@ impl<'m> Solver<'m> {
     /// # Errors
     /// The motion that costs (next to) nothing, if there is one.
     pub fn set_sections(&mut self, sections: &[Section]) -> Result<(), FreeMotion> {
-        self.sections.clear();
-        self.sections.extend_from_slice(sections);
+        self.use_sections(sections);
         self.assemble();
         let factored = self.refactorise();
         let suspicious = match factored {
@@ -91,6 +103,7 @@ impl<'m> Solver<'m> {
         if !suspicious {
             return Ok(());
         }
+        self.factored = Factored::Nothing;
         match mechanism::free_motion(
             self.model,
             &self.system,
@@ -104,24 +117,46 @@ impl<'m> Solver<'m> {
         }
     }
 
-    /// Factorises the assembled stiffness once more: what everything else is measured against.
+    /// Takes other sections without a factorisation. The factor stays what it was, good enough for
+    /// [`Solver::iterate`] if the sections before were much the same; whatever needs K's own makes it.
+    pub fn use_sections(&mut self, sections: &[Section]) {
+        self.sections.clear();
+        self.sections.extend_from_slice(sections);
+        self.stiffness.clear();
+        let count = self.model.members().len();
+        self.stiffness.extend((0..count).map(|m| Stiffness::of_member(self.model, &self.sections, m)));
+        self.assembled = false;
+        if self.factored == Factored::Stiffness {
+            self.factored = Factored::Other;
+        }
+    }
+
+    /// Whether there is a factor of anything.
+    pub fn has_factor(&self) -> bool {
+        self.factored != Factored::Nothing
+    }
+
+    /// Factorises the stiffness once more: what everything else is measured against.
     ///
     /// # Errors
     /// [`NotPositive`].
     pub fn refactorise(&mut self) -> Result<(), NotPositive> {
-        self.of_stiffness = true;
-        self.factor.factorise(&self.system, &self.matrix)
+        self.assemble();
+        let outcome = self.factor.factorise(&self.system, &self.matrix);
+        self.factored = if outcome.is_ok() { Factored::Stiffness } else { Factored::Nothing };
+        outcome
     }
 
     fn assemble(&mut self) {
+        if self.assembled {
+            return;
+        }
         self.matrix.fill(0.0);
-        self.stiffness.clear();
-        for (m, axes) in self.model.axes().iter().enumerate() {
-            let stiffness = Stiffness::of_member(self.model, &self.sections, m);
+        for (m, (axes, stiffness)) in self.model.axes().iter().zip(&self.stiffness).enumerate() {
             self.system.add(&mut self.matrix, m, &stiffness.global(axes), 1.0);
-            self.stiffness.push(stiffness);
         }
         self.system.hold(&mut self.matrix, 1.0);
+        self.assembled = true;
     }
 
     /// The uniform load on each member (N/m, global) of a combination, self weight included.
@@ -165,10 +200,10 @@ impl<'m> Solver<'m> {
         }
     }
 
-    /// Solves K u = f in place, for one or several columns. If [`Solver::factorise_shifted`] came in between, K is
+    /// Solves K u = f in place, for one or several columns. If the factor is of something else by now, K is
     /// factorised once more.
     pub fn solve(&mut self, rhs: &mut [f64]) {
-        if !self.of_stiffness && self.refactorise().is_err() {
+        if self.factored != Factored::Stiffness && self.refactorise().is_err() {
             // It was factorised before, by `set_sections`; without that there is no stiffness and no answer.
             rhs.fill(f64::NAN);
             return;
@@ -176,7 +211,8 @@ impl<'m> Solver<'m> {
         self.solve_as_factorised(rhs);
     }
 
-    fn solve_as_factorised(&mut self, rhs: &mut [f64]) {
+    /// Solves in place with whatever the factor is of.
+    pub fn solve_as_factorised(&mut self, rhs: &mut [f64]) {
         for column in rhs.chunks_mut(self.system.unknowns()) {
             self.system.hold_vector(column);
         }
@@ -277,14 +313,16 @@ impl<'m> Solver<'m> {
     /// # Errors
     /// [`NotPositive`] if it is not positive definite, that is (with N fixed) if s is past the critical factor.
     pub fn factorise_shifted(&mut self, axial: &[f64], s: f64) -> Result<(), NotPositive> {
+        self.assemble();
         self.shifted.clear();
         self.shifted.extend_from_slice(&self.matrix);
         for (m, axes) in self.model.axes().iter().enumerate() {
             self.system.add(&mut self.shifted, m, &element::geometric(axes), s * axial[m]);
         }
         self.system.hold(&mut self.shifted, 1.0);
-        self.of_stiffness = false;
-        self.factor.factorise(&self.system, &self.shifted)
+        let outcome = self.factor.factorise(&self.system, &self.shifted);
+        self.factored = if outcome.is_ok() { Factored::Other } else { Factored::Nothing };
+        outcome
     }
 
     /// K with the held unknowns taken out (diagonal 1), assembled.
@@ -300,12 +338,6 @@ impl<'m> Solver<'m> {
         }
         self.system.hold(&mut values, 0.0);
         self.system.symmetric(&values)
-    }
-
-    /// Solves (K + s Kg) x = rhs in place with the factor that [`Solver::factorise_shifted`] made last; with that of K
-    /// if something was solved with K since.
-    pub fn solve_shifted(&mut self, rhs: &mut [f64]) {
-        self.solve_as_factorised(rhs);
     }
 }
 

@@ -9,13 +9,20 @@ use crate::structure::frame::{by_node, silence};
 use crate::structure::mechanism;
 use crate::structure::model::NodeId;
 use crate::structure::params::{HeightParams, Quantity, RequirementParams, StructureParams};
-use crate::structure::second_order::Room;
+use crate::structure::second_order::{Aim, Room};
 use crate::structure::section::Section;
 use crate::structure::solver::{Combination, Solver};
 use nalgebra::Vector3;
 
 /// Residual of the buckling mode at which λ is good to about its square.
-const MODE_TOLERANCE: f64 = 3e-5;
+const MODE_TOLERANCE: f64 = 3e-4;
+/// The same share of the largest displacement and axial force, in first order with a factor that is not K's own.
+const FIRST_ORDER_TOLERANCE: f64 = 1e-9;
+/// Difference of the logarithms of two heights up to which one's factor serves the other: there the iteration takes
+/// as long as a factorisation.
+const NEAR: f64 = 0.08;
+/// How many times the distance of two known heights their line is followed for a first guess.
+const FURTHEST: f64 = 2.0;
 
 /// All results of one combination, for export.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,10 +63,22 @@ pub struct Evaluator<'a> {
     /// Loads and displacements of all combinations, one column after the other.
     f: Vec<f64>,
     u: Vec<f64>,
-    first_order: Vec<f64>,
     room: Room,
     reactions: Vec<f64>,
-    section: Option<Section>,
+    /// What `u` is of, if of anything.
+    current: Option<Current>,
+    /// Height of the sections in the factor.
+    factored_at: f64,
+    /// Whether the first-order axial forces of this height are known.
+    first_known: bool,
+    /// The last heights before this one and their displacements.
+    former: [(f64, Vec<f64>); 2],
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Current {
+    height: f64,
+    tolerance: f64,
 }
 
 impl<'a> Evaluator<'a> {
@@ -84,10 +103,12 @@ impl<'a> Evaluator<'a> {
         Ok(Self {
             f: vec![0.0; solver.system().unknowns() * states.len()],
             u: Vec::new(),
-            first_order: Vec::new(),
             room: Room::default(),
             reactions: Vec::new(),
-            section: None,
+            current: None,
+            factored_at: 0.0,
+            first_known: false,
+            former: Default::default(),
             solver,
             model,
             params,
@@ -95,63 +116,136 @@ impl<'a> Evaluator<'a> {
         })
     }
 
-    /// Statics of all combinations with sections of this height.
+    /// Statics of all combinations with sections of this height, as exact as the parameters ask.
     ///
     /// In second order what does not settle is unstable; what settles is stable only after [`Evaluator::prove_stable`].
     pub fn statics(&mut self, height: f64) -> Result<(), AnalysisError> {
-        let section = Section::of_params(&self.params.section, height)?;
-        if self.section == Some(section) {
-            return Ok(());
+        match self.statics_within(height, self.tolerance())? {
+            None => Ok(()),
+            Some(fallen) => Err(self.unstable(fallen)),
         }
-        self.section = None;
-        self.solver.set_sections(&[section])?;
+    }
+
+    /// How exact the parameters ask the displacements to be.
+    pub fn tolerance(&self) -> f64 {
+        if self.params.order == 2 { self.params.second_order_tolerance } else { FIRST_ORDER_TOLERANCE }
+    }
+
+    /// The same up to `tolerance` of the largest displacement and axial force. Gives the combination that is past its
+    /// critical load, if one is.
+    pub fn statics_within(&mut self, height: f64, tolerance: f64) -> Result<Option<usize>, AnalysisError> {
+        match self.current {
+            Some(current) if current.height == height => {
+                if current.tolerance <= tolerance {
+                    return Ok(None);
+                }
+                let stable = self.params.order != 2;
+                self.states.iter_mut().for_each(|state| (state.metrics, state.stable) = (None, stable));
+            }
+            _ => self.turn_to(height)?,
+        }
+        self.current = None;
+        let fallen = self.settle(height, tolerance)?;
+        if self.u.iter().any(|v| !v.is_finite()) {
+            return Err(AnalysisError::NotFinite("a displacement"));
+        }
+        if fallen.is_none() {
+            let n = self.solver.system().unknowns();
+            for (state, u) in self.states.iter_mut().zip(self.u.chunks(n)) {
+                self.solver.axial_forces(u, &mut state.axial);
+            }
+            self.current = Some(Current { height, tolerance });
+        }
+        Ok(fallen)
+    }
+
+    /// Sections, loads and first displacements of another height: followed from the heights before if it is near the
+    /// one of the factor, else those of first order.
+    fn turn_to(&mut self, height: f64) -> Result<(), AnalysisError> {
+        let section = Section::of_params(&self.params.section, height)?;
+        if let Some(current) = self.current.take() {
+            let [last, before] = &mut self.former;
+            std::mem::swap(last, before);
+            (last.0, last.1) = (current.height, std::mem::replace(&mut self.u, std::mem::take(&mut last.1)));
+        }
+        let near = self.solver.has_factor()
+            && self.former[0].0 > 0.0
+            && (height / self.factored_at).ln().abs() <= NEAR;
+        if near {
+            self.solver.use_sections(&[section]);
+        } else {
+            self.solver.set_sections(&[section])?;
+            self.factored_at = height;
+        }
         let n = self.solver.system().unknowns();
         for (state, f) in self.states.iter_mut().zip(self.f.chunks_mut(n)) {
             self.solver.member_loads(&state.cases, &mut state.member_loads);
             self.solver.load_vector(&state.cases, &state.member_loads, f);
             (state.metrics, state.mode, state.stable) = (None, None, self.params.order != 2);
         }
-        self.u.clone_from(&self.f);
-        self.solver.solve(&mut self.u);
-        if self.u.iter().any(|v| !v.is_finite()) {
-            return Err(AnalysisError::NotFinite("a displacement"));
+        self.first_known = false;
+        if near {
+            self.follow(height);
+        } else {
+            let room = std::mem::take(&mut self.u);
+            self.u = self.first_order(room);
         }
-        for (state, u) in self.states.iter_mut().zip(self.u.chunks(n)) {
-            self.solver.axial_forces(u, &mut state.first_axial);
-            silence(&self.solver, u, &mut state.first_axial);
-        }
-        if self.params.order == 2 {
-            self.second_order()?;
-        }
-        for (state, u) in self.states.iter_mut().zip(self.u.chunks(n)) {
-            self.solver.axial_forces(u, &mut state.axial);
-        }
-        self.section = Some(section);
         Ok(())
     }
 
-    /// All combinations together with the factor of K; if that does not settle, one by one with factors of K + Kg,
-    /// which always tells.
-    fn second_order(&mut self) -> Result<(), AnalysisError> {
+    /// First guess of the displacements: along the line through the last two heights, over their logarithm.
+    fn follow(&mut self, height: f64) {
+        let [(last, u), (before, v)] = &self.former;
+        self.u.clone_from(u);
+        let share = (height / last).ln() / (last / before).ln();
+        if *before > 0.0 && share.is_finite() {
+            let share = share.clamp(-FURTHEST, FURTHEST);
+            self.u.iter_mut().zip(v).for_each(|(u, v)| *u += share * (*u - v));
+        }
+    }
+
+    /// Displacements (in `u`, whatever it held) and axial forces of first order, with K's own factor.
+    fn first_order(&mut self, mut u: Vec<f64>) -> Vec<f64> {
+        u.clone_from(&self.f);
+        self.solver.solve(&mut u);
         let n = self.solver.system().unknowns();
-        let tolerance = self.params.second_order_tolerance;
-        self.first_order.clone_from(&self.u);
-        if self.solver.iterate_second_order(&self.f, &mut self.u, tolerance, &mut self.room) {
-            return Ok(());
+        for (state, u) in self.states.iter_mut().zip(u.chunks(n)) {
+            self.solver.axial_forces(u, &mut state.first_axial);
+            silence(&self.solver, u, &mut state.first_axial);
         }
-        for s in 0..self.states.len() {
-            let columns = s * n..(s + 1) * n;
-            match self.solver.second_order(
-                &self.f[columns.clone()],
-                &self.first_order[columns.clone()],
-                tolerance,
-            ) {
-                Ok(found) => self.u[columns].copy_from_slice(&found),
-                Err(_) => return Err(self.unstable(s)),
+        self.first_known = true;
+        u
+    }
+
+    /// All combinations together with the factor at hand; if that does not settle, with that of K; then, in second
+    /// order, one by one with factors of K + Kg, which always tells.
+    fn settle(&mut self, height: f64, tolerance: f64) -> Result<Option<usize>, AnalysisError> {
+        let second_order = self.params.order == 2;
+        if !second_order && self.first_known {
+            return Ok(None);
+        }
+        let aim = Aim { second_order, tolerance };
+        if self.solver.has_factor() && self.solver.iterate(&self.f, &mut self.u, aim, &mut self.room) {
+            return Ok(None);
+        }
+        if !self.first_known {
+            self.factored_at = height;
+            let room = std::mem::take(&mut self.u);
+            self.u = self.first_order(room);
+            if !second_order || self.solver.iterate(&self.f, &mut self.u, aim, &mut self.room) {
+                return Ok(None);
             }
-            self.states[s].stable = true;
         }
-        Ok(())
+        let n = self.solver.system().unknowns();
+        for (s, state) in self.states.iter_mut().enumerate() {
+            let columns = s * n..(s + 1) * n;
+            match self.solver.second_order(&self.f[columns.clone()], &state.first_axial, tolerance) {
+                Ok(found) => self.u[columns].copy_from_slice(&found),
+                Err(_) => return Ok(Some(s)),
+            }
+            state.stable = true;
+        }
+        Ok(None)
     }
 
     /// Makes sure that K + Kg(N) of every combination's second order is positive definite: that the answer is a stable
@@ -164,26 +258,42 @@ impl<'a> Evaluator<'a> {
     /// # Errors
     /// [`AnalysisError::Unstable`].
     pub fn prove_stable(&mut self) -> Result<(), AnalysisError> {
+        match self.not_stable() {
+            None => Ok(()),
+            Some(fallen) => Err(self.unstable(fallen)),
+        }
+    }
+
+    /// The first combination that cannot be proved stable.
+    fn not_stable(&mut self) -> Option<usize> {
+        self.factored_at = self.current.map_or(0.0, |current| current.height);
         let doubtful: Vec<usize> = (0..self.states.len()).filter(|&s| !self.states[s].stable).collect();
-        let Some((&first, others)) = doubtful.split_first() else { return Ok(()) };
+        let (&first, others) = doubtful.split_first()?;
         let mut least = self.states[first].axial.clone();
         for &s in others {
             least.iter_mut().zip(&self.states[s].axial).for_each(|(least, n)| *least = least.min(*n));
         }
         let together = self.solver.factorise_shifted(&least, 1.0).is_ok();
         for &s in &doubtful {
-            let stable = together
-                || (!others.is_empty() && self.solver.factorise_shifted(&self.states[s].axial, 1.0).is_ok());
-            if !stable {
-                return Err(self.unstable(s));
+            let alone = |solver: &mut Solver<'_>, axial: &[f64]| solver.factorise_shifted(axial, 1.0).is_ok();
+            if !together && (others.is_empty() || !alone(&mut self.solver, &self.states[s].axial)) {
+                return Some(s);
             }
             self.states[s].stable = true;
         }
-        Ok(())
+        None
+    }
+
+    /// The first-order axial forces, if the displacements were not found by way of them.
+    fn find_first_axial_forces(&mut self) {
+        if !self.first_known {
+            self.first_order(Vec::new());
+        }
     }
 
     /// Names what gives way in a combination: the first buckling mode under its first-order axial forces.
     fn unstable(&mut self, index: usize) -> AnalysisError {
+        self.find_first_axial_forces();
         let search = Search { modes: 1, tolerance: 1e-4 };
         let state = &self.states[index];
         match buckling::modes(&mut self.solver, &state.first_axial, search)
@@ -198,29 +308,22 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// The largest share of a limit that is used, of the requirements that statics decide.
-    pub fn used(&mut self) -> Result<f64, AnalysisError> {
-        self.most_used(false)
+    /// The shares of the limits that are used, of the requirements that statics decide.
+    pub fn used(&mut self) -> Result<Vec<f64>, AnalysisError> {
+        self.shares(false)
     }
 
-    /// The same of the requirements on buckling factors; infinite if a combination is not stable.
-    pub fn used_by_buckling(&mut self) -> Result<f64, AnalysisError> {
-        let used = self.most_used(true)?;
-        match self.prove_stable() {
-            Ok(()) => Ok(used),
-            Err(AnalysisError::Unstable { .. } | AnalysisError::NoConvergence(_)) => Ok(f64::INFINITY),
-            Err(other) => Err(other),
-        }
+    /// The same of the requirements on buckling factors; none if a combination is not stable.
+    pub fn used_by_buckling(&mut self) -> Result<Option<Vec<f64>>, AnalysisError> {
+        let used = self.shares(true)?;
+        Ok(self.not_stable().is_none().then_some(used))
     }
 
-    fn most_used(&mut self, by_buckling: bool) -> Result<f64, AnalysisError> {
-        let mut used = 0.0f64;
-        for required in &self.params.requirements {
-            if (required.quantity == Quantity::BucklingFactor) == by_buckling {
-                used = used.max(self.requirement(required)?.used());
-            }
-        }
-        Ok(used)
+    fn shares(&mut self, by_buckling: bool) -> Result<Vec<f64>, AnalysisError> {
+        let params = self.params;
+        let wanted =
+            params.requirements.iter().filter(|r| (r.quantity == Quantity::BucklingFactor) == by_buckling);
+        wanted.map(|required| Ok(self.requirement(required)?.used())).collect()
     }
 
     fn answer(&self, index: usize) -> Answer<'_> {
@@ -248,10 +351,12 @@ impl<'a> Evaluator<'a> {
 
     /// The first buckling mode of a combination.
     fn mode(&mut self, index: usize) -> Result<Option<Mode>, AnalysisError> {
-        let state = &self.states[index];
-        if let Some(known) = &state.mode {
+        if let Some(known) = &self.states[index].mode {
             return Ok(known.clone());
         }
+        self.factored_at = self.current.map_or(0.0, |current| current.height);
+        self.find_first_axial_forces();
+        let state = &self.states[index];
         let search = Search { modes: 1, tolerance: MODE_TOLERANCE };
         let mode = buckling::modes(&mut self.solver, &state.first_axial, search)
             .map_err(|_| AnalysisError::NoConvergence("buckling"))?

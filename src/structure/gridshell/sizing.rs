@@ -20,7 +20,10 @@ const POWER: f64 = 1.0;
 const HALVE_EVERY: usize = 5;
 /// While no height is known to be too low, a cut goes no further down than to this share of the last: what is far too
 /// low tells nothing, and takes long to be found unstable.
-const BOLDEST: f64 = 0.6;
+const BOLDEST: f64 = 0.5;
+/// How exact the displacements are at first, and how near to its limit a share then is known better.
+const COARSE: f64 = 1e-3;
+const DOUBTFUL: f64 = 0.02;
 
 /// The height to report: the fixed one, or the least of the range that meets all requirements, or the largest if
 /// none does.
@@ -33,66 +36,89 @@ pub fn height(evaluator: &mut Evaluator<'_>, params: &StructureParams) -> Result
         HeightParams::Sized { min_m, max_m, .. } => (min_m, max_m),
     };
     evaluator.statics(max)?;
-    let used = evaluator.used()?;
-    if used > 1.0 {
+    let used = Point::new(max, evaluator.used()?);
+    if used.most() > 1.0 {
         return Ok(max);
     }
-    let by_statics = least(min, Point::new(max, used), |height| used_at(evaluator, height, false))?;
+    let by_statics = Bracket::new(min, used).narrow(|height| used_at(evaluator, height, false))?;
     let used = used_at(evaluator, by_statics, true)?;
-    if used <= 1.0 {
+    if used.most() <= 1.0 {
         return Ok(by_statics);
     }
     let used_by_max = used_at(evaluator, max, true)?;
-    if used_by_max > 1.0 || by_statics >= max {
+    if used_by_max.most() > 1.0 || by_statics >= max {
         return Ok(max);
     }
-    let mut bracket = Bracket::new(by_statics, Point::new(max, used_by_max));
-    bracket.add(Point::new(by_statics, used));
+    let mut bracket = Bracket::new(by_statics, used_by_max);
+    bracket.add(used);
     bracket.narrow(|height| used_at(evaluator, height, true))
 }
 
-/// The share of the limits used at a height; infinite where the structure does not stand.
-fn used_at(evaluator: &mut Evaluator<'_>, height: f64, all: bool) -> Result<f64, AnalysisError> {
-    let mut used = || {
-        evaluator.statics(height)?;
-        let by_statics = evaluator.used()?;
-        if all && by_statics <= 1.0 {
-            Ok(by_statics.max(evaluator.used_by_buckling()?))
-        } else {
-            Ok(by_statics)
+/// The shares of the limits used at a height; none is known where the structure does not stand.
+fn used_at(evaluator: &mut Evaluator<'_>, height: f64, all: bool) -> Result<Point, AnalysisError> {
+    match shares_at(evaluator, height, all) {
+        Ok(Some(shares)) => Ok(Point::new(height, shares)),
+        Ok(None) | Err(AnalysisError::Mechanism(_) | AnalysisError::NoConvergence(_)) => {
+            Ok(Point { height, shares: None })
         }
-    };
-    match used() {
-        Err(
-            AnalysisError::Unstable { .. } | AnalysisError::Mechanism(_) | AnalysisError::NoConvergence(_),
-        ) => Ok(f64::INFINITY),
-        other => other,
+        Err(other) => Err(other),
     }
 }
 
-/// The least height from `min` on that uses at most all of the limits, within [`RESOLUTION`]; `high` does.
-fn least(
-    min: f64,
-    high: Point,
-    used: impl FnMut(f64) -> Result<f64, AnalysisError>,
-) -> Result<f64, AnalysisError> {
-    Bracket::new(min, high).narrow(used)
+/// What is far from the limits need not be known well.
+fn shares_at(
+    evaluator: &mut Evaluator<'_>,
+    height: f64,
+    all: bool,
+) -> Result<Option<Vec<f64>>, AnalysisError> {
+    let tolerance = evaluator.tolerance();
+    if tolerance < COARSE {
+        if evaluator.statics_within(height, COARSE)?.is_some() {
+            return Ok(None);
+        }
+        let shares = evaluator.used()?;
+        let over = largest(&shares) - 1.0;
+        if over > DOUBTFUL || (!all && over < -DOUBTFUL) {
+            return Ok(Some(shares));
+        }
+    }
+    if evaluator.statics_within(height, tolerance)?.is_some() {
+        return Ok(None);
+    }
+    let mut shares = evaluator.used()?;
+    if all && largest(&shares) <= 1.0 {
+        let Some(by_buckling) = evaluator.used_by_buckling()? else { return Ok(None) };
+        shares.extend(by_buckling);
+    }
+    Ok(Some(shares))
 }
 
-/// A height and the share of the limits used there.
-#[derive(Clone, Copy, Debug)]
+fn largest(shares: &[f64]) -> f64 {
+    shares.iter().fold(0.0, |a, &share| if share > a || share.is_nan() { share } else { a })
+}
+
+/// A height and the shares of the limits used there.
+#[derive(Clone, Debug)]
 struct Point {
     height: f64,
-    used: f64,
+    /// Those of statics, then, if they were asked for, those of buckling; none if the structure does not stand.
+    shares: Option<Vec<f64>>,
 }
 
 impl Point {
-    fn new(height: f64, used: f64) -> Self {
-        Self { height, used }
+    fn new(height: f64, shares: Vec<f64>) -> Self {
+        Self { height, shares: Some(shares) }
     }
 
-    fn is_drawn(self) -> bool {
-        self.used > 0.0 && self.used.is_finite()
+    /// The largest share; infinite where the structure does not stand.
+    fn most(&self) -> f64 {
+        self.shares.as_ref().map_or(f64::INFINITY, |shares| largest(shares))
+    }
+
+    /// Height and share of the limit of requirement `k` on logarithmic paper, where it can be drawn.
+    fn drawn(&self, k: usize) -> Option<(f64, f64)> {
+        let share = *self.shares.as_ref()?.get(k)?;
+        (share > 0.0 && share.is_finite()).then(|| (self.height.ln(), share.ln()))
     }
 }
 
@@ -105,28 +131,30 @@ struct Bracket {
     low: Option<Point>,
     /// The lowest that is high enough.
     high: Point,
-    /// The last points that can be drawn on logarithmic paper, the latest first.
-    last: [Option<Point>; 3],
+    /// The last points, the latest first.
+    last: Vec<Point>,
 }
 
 impl Bracket {
     fn new(min: f64, high: Point) -> Self {
-        Self { min, low: None, high, last: [Some(high).filter(|p| p.is_drawn()), None, None] }
+        Self { min, low: None, last: vec![high.clone()], high }
     }
 
     fn add(&mut self, point: Point) {
-        if point.used > 1.0 {
-            self.low = Some(point);
-        } else {
-            self.high = point;
+        if point.shares.is_some() {
+            self.last.insert(0, point.clone());
+            self.last.truncate(3);
         }
-        if point.is_drawn() {
-            self.last = [Some(point), self.last[0], self.last[1]];
+        // Not `>`: what is not a number is no answer.
+        if point.most() <= 1.0 {
+            self.high = point;
+        } else {
+            self.low = Some(point);
         }
     }
 
     fn is_narrow(&self) -> bool {
-        match self.low {
+        match &self.low {
             Some(low) => self.high.height - low.height <= RESOLUTION,
             None => self.high.height <= self.min,
         }
@@ -134,24 +162,24 @@ impl Bracket {
 
     fn narrow(
         mut self,
-        mut used: impl FnMut(f64) -> Result<f64, AnalysisError>,
+        mut used: impl FnMut(f64) -> Result<Point, AnalysisError>,
     ) -> Result<f64, AnalysisError> {
         for cut in 1.. {
             if self.is_narrow() {
                 break;
             }
             let height = self.next_cut(cut);
-            self.add(Point::new(height, used(height)?));
+            self.add(used(height)?);
         }
         Ok(self.high.height)
     }
 
     /// Where to cut the bracket next.
     fn next_cut(&self, cut: usize) -> f64 {
-        let bottom = self.low.map_or(self.min, |low| low.height);
+        let bottom = self.low.as_ref().map_or(self.min, |low| low.height);
         let halved = 0.5 * (bottom + self.high.height);
         let expected = if cut.is_multiple_of(HALVE_EVERY) { None } else { self.expected() };
-        let Some(low) = self.low else {
+        let Some(low) = &self.low else {
             let high = self.high.height;
             let height = expected.unwrap_or(halved).max(BOLDEST * high).min(high - 0.5 * RESOLUTION);
             // `min` itself is worth asking only if the guess comes near it.
@@ -171,25 +199,43 @@ impl Bracket {
         height.clamp(low.height + 0.25 * margin, self.high.height - 0.25 * margin)
     }
 
-    /// Where the limits are expected to be just used; none if nothing can be expected, or not inside the bracket.
+    /// Where the limits are expected to be just used; none if nothing can be expected, or not inside the bracket. Each
+    /// requirement has its own line: their largest has a kink where another one begins to govern.
     fn expected(&self) -> Option<f64> {
-        let drawn = |point: Option<Point>| point.map(|p| (p.height.ln(), p.used.ln()));
-        let [latest, before, third] = self.last.map(drawn);
-        let (x1, y1) = latest?;
-        let Some((x2, y2)) = before else { return self.inside(x1 + y1 / POWER) };
-        let line = |(xa, ya): (f64, f64), (xb, yb): (f64, f64)| xa - ya * (xb - xa) / (yb - ya);
-        let straight = line((x1, y1), (x2, y2));
-        // Neville's scheme for x(y) at y = 0: the parabola through three points.
-        let curved = third.map(|(x3, y3)| {
-            let (a, b) = (straight, line((x2, y2), (x3, y3)));
-            (b * y1 - a * y3) / (y1 - y3)
-        });
-        curved.and_then(|x| self.inside(x)).or_else(|| self.inside(straight))
+        let requirements = self.last.iter().filter_map(|point| point.shares.as_ref()).map(Vec::len).max()?;
+        let mut expected: Option<f64> = None;
+        for k in 0..requirements {
+            let points: Vec<(f64, f64)> = self.last.iter().filter_map(|point| point.drawn(k)).collect();
+            let Some(root) = self.root(&points) else { continue };
+            // It is met by the high end, whatever its line says.
+            let root = root.min(self.high.height - 0.5 * RESOLUTION);
+            expected = Some(expected.map_or(root, |known| known.max(root)));
+        }
+        expected.filter(|&height| self.is_inside(height))
     }
 
-    fn inside(&self, logarithm: f64) -> Option<f64> {
-        let height = logarithm.exp();
-        let above = self.low.is_none_or(|low| height > low.height);
-        (height.is_finite() && above && height < self.high.height).then_some(height)
+    /// Where the curve through the points, the latest first, meets 1: the parabola if it does so inside the bracket,
+    /// else the straight line. None if it does not fall with the height.
+    fn root(&self, points: &[(f64, f64)]) -> Option<f64> {
+        let line = |(xa, ya): (f64, f64), (xb, yb): (f64, f64)| xa - ya * (xb - xa) / (yb - ya);
+        let straight = match *points {
+            [] => return None,
+            [(x, y)] => x + y / POWER,
+            [a, b, ..] if (b.1 - a.1) * (b.0 - a.0) < 0.0 => line(a, b),
+            _ => return None,
+        };
+        if let [a, b, c] = *points {
+            // Neville's scheme for x(y) at y = 0.
+            let curved = ((line(b, c) * a.1 - straight * c.1) / (a.1 - c.1)).exp();
+            if self.is_inside(curved) {
+                return Some(curved);
+            }
+        }
+        Some(straight.exp()).filter(|height| height.is_finite())
+    }
+
+    fn is_inside(&self, height: f64) -> bool {
+        let above = self.low.as_ref().is_none_or(|low| height > low.height);
+        height.is_finite() && above && height < self.high.height
     }
 }
