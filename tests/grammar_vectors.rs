@@ -1,13 +1,14 @@
-//! The reference cases of the grammar (`tests/data/grammar/README.md`), every one.
+//! The reference cases of the grammar (`tests/data/grammar/README.md`), every one, and those made by an independent
+//! reading of the specification (`tests/data/grammar_independent/README.md`).
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot read its case fails")]
 
 mod grammar_cases;
 
-use grammar_cases::{base, bases, vectors};
-use quadrille::grammar::{Effect, Rules, Tokens, decode};
+use grammar_cases::{GIVEN, INDEPENDENT, all_bases, base, vectors, vectors_in};
+use quadrille::grammar::{Decoded, Effect, Rules, Tokens, decode};
 use quadrille::mesh::code::{code, rooted_code};
-use quadrille::mesh::{Distance, Equivalence, distance, strips, validate};
+use quadrille::mesh::{Distance, Equivalence, InitialMesh, VertexId, distance, strips, validate};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -39,9 +40,18 @@ fn histogram(values: impl Iterator<Item = usize>) -> BTreeMap<String, usize> {
 
 #[test]
 fn decode_gives_the_reference_meshes() {
-    let bases = bases();
+    check_decode(GIVEN);
+}
+
+#[test]
+fn decode_gives_the_meshes_of_an_independent_reading() {
+    check_decode(INDEPENDENT);
+}
+
+fn check_decode(set: &str) {
+    let bases = all_bases();
     let mut failures = Vec::new();
-    for case in vectors()["decode"].as_array().unwrap() {
+    for case in vectors_in(set)["decode"].as_array().unwrap() {
         let initial = &bases[case["base"].as_str().unwrap()];
         let tokens: Tokens = case["string"].as_str().unwrap().parse().unwrap();
         let rules = if case["mode"] == "domain" { Rules::Domain } else { Rules::Plain };
@@ -106,6 +116,7 @@ fn decode_gives_the_reference_meshes() {
             }
         }
         wrong.extend(wrong_rules(&decoded.trace, case));
+        wrong.extend(wrong_strips_or_places(&decoded, case));
         if !wrong.is_empty() {
             failures.push(format!("{} {}: {}", case["base"], case["string"], wrong.join("; ")));
         }
@@ -152,6 +163,37 @@ fn wrong_rules(trace: &[Effect], case: &Value) -> Vec<String> {
     wrong
 }
 
+/// Compares what only the independent cases hold: strips by label (where none was subdivided), and sums over the
+/// positions.
+fn wrong_strips_or_places(decoded: &Decoded, case: &Value) -> Vec<String> {
+    let mut wrong = Vec::new();
+    if let Some(expected) = case.get("strips") {
+        let mut found: Vec<_> = strips::all(&decoded.mesh)
+            .iter()
+            .map(|chain| (chain.label.0, chain.darts.len(), chain.closed, chain.pole_count()))
+            .collect();
+        found.sort_unstable();
+        if expected != &json!(found) {
+            wrong.push(format!("strips: {found:?} instead of {expected}"));
+        }
+    }
+    if let Some(expected) = case.get("moments") {
+        let mut found = [0.0; 4];
+        for v in (0..decoded.mesh.vertex_count()).map(|v| decoded.mesh.position(VertexId(v as u32))) {
+            (0..3).for_each(|i| found[i] += v[i]);
+            found[3] += v.iter().map(|x| x * x).sum::<f64>();
+        }
+        let near = |(found, expected): (&f64, &Value)| {
+            let expected = expected.as_f64().unwrap();
+            (found - expected).abs() <= 1e-9 * (1.0 + expected.abs())
+        };
+        if !found.iter().zip(expected.as_array().unwrap()).all(near) {
+            wrong.push(format!("sums over positions: {found:?} instead of {expected}"));
+        }
+    }
+    wrong
+}
+
 #[test]
 fn given_mesh_and_marker_are_the_decoded_ones() {
     // The meshes written in the cases load, and have the marker code of the decoded ones.
@@ -164,13 +206,15 @@ fn given_mesh_and_marker_are_the_decoded_ones() {
 
 #[test]
 fn parser_cases() {
-    let parser = &vectors()["parser"];
-    for case in parser["tokens"].as_array().unwrap() {
+    let sets = [GIVEN, INDEPENDENT].map(|set| vectors_in(set)["parser"].take());
+    let cases =
+        |key: &str| sets.iter().flat_map(|parser| parser[key].as_array().unwrap()).collect::<Vec<_>>();
+    for case in cases("tokens") {
         let tokens: Tokens = case["string"].as_str().unwrap().parse().unwrap();
         let printed: Vec<&str> = tokens.iter().map(|token| token.as_str()).collect();
         assert_eq!(case["tokens"], json!(printed), "{case}");
     }
-    for case in parser["wrong"].as_array().unwrap() {
+    for case in cases("wrong") {
         let error = case["string"].as_str().unwrap().parse::<Tokens>().unwrap_err();
         assert_eq!(case["position"], error.position, "{case}");
     }
@@ -178,36 +222,52 @@ fn parser_cases() {
 
 #[test]
 fn string_distances() {
-    for case in vectors()["distance"].as_array().unwrap() {
-        let [a, b]: [Tokens; 2] = ["a", "b"].map(|key| case[key].as_str().unwrap().parse().unwrap());
-        assert_eq!(case["levenshtein"], a.levenshtein(&b), "{case}");
-        assert_eq!(case.get("hamming").cloned(), a.hamming(&b).map(Value::from), "{case}");
+    for set in [GIVEN, INDEPENDENT] {
+        for case in vectors_in(set)["distance"].as_array().unwrap() {
+            let [a, b]: [Tokens; 2] = ["a", "b"].map(|key| case[key].as_str().unwrap().parse().unwrap());
+            assert_eq!(case["levenshtein"], a.levenshtein(&b), "{case}");
+            assert_eq!(case.get("hamming").cloned(), a.hamming(&b).map(Value::from), "{case}");
+        }
     }
 }
 
 #[test]
 fn topological_distances() {
-    let bases = bases();
-    for case in vectors()["distance"].as_array().unwrap() {
-        let initial = &bases[case["base"].as_str().unwrap()];
-        let [a, b] = ["a", "b"].map(|key| {
-            let tokens: Tokens = case[key].as_str().unwrap().parse().unwrap();
-            decode(initial, &tokens, Rules::Plain).mesh
-        });
-        let max = case["max"].as_u64().unwrap() as usize;
-        for (key, placed, reduce) in [
-            ("distance_placed_reduce", true, true),
-            ("distance_placed", true, false),
-            ("distance_reduce", false, true),
-            ("distance", false, false),
-        ] {
-            let expected = match case[key].as_u64() {
-                Some(d) => Distance::Exactly(d as usize),
-                None => Distance::MoreThan(max),
-            };
-            let equivalence = Equivalence { placed, reduce, mirror: false };
-            assert_eq!(distance(&a, &b, equivalence, max), expected, "{key} of {case}");
-            assert_eq!(distance(&b, &a, equivalence, max), expected, "{key} of {case}, swapped");
+    let bases = all_bases();
+    for set in [GIVEN, INDEPENDENT] {
+        for case in vectors_in(set)["distance"].as_array().unwrap() {
+            check_distances(&bases[case["base"].as_str().unwrap()], case);
         }
+    }
+}
+
+/// The distances of a case, both ways round; only the independent cases have those with `mirror`.
+fn check_distances(initial: &InitialMesh, case: &Value) {
+    let [a, b] = ["a", "b"].map(|key| {
+        let tokens: Tokens = case[key].as_str().unwrap().parse().unwrap();
+        decode(initial, &tokens, Rules::Plain).mesh
+    });
+    let max = case["max"].as_u64().unwrap() as usize;
+    for (key, placed, reduce, mirror) in [
+        ("distance_placed_reduce", true, true, false),
+        ("distance_placed", true, false, false),
+        ("distance_reduce", false, true, false),
+        ("distance", false, false, false),
+        ("distance_placed_reduce_mirror", true, true, true),
+        ("distance_placed_mirror", true, false, true),
+        ("distance_reduce_mirror", false, true, true),
+        ("distance_mirror", false, false, true),
+    ] {
+        let Some(expected) = case.get(key) else {
+            assert!(mirror, "{key} is missing in {case}");
+            continue;
+        };
+        let expected = match expected.as_u64() {
+            Some(d) => Distance::Exactly(d as usize),
+            None => Distance::MoreThan(max),
+        };
+        let equivalence = Equivalence { placed, reduce, mirror };
+        assert_eq!(distance(&a, &b, equivalence, max), expected, "{key} of {case}");
+        assert_eq!(distance(&b, &a, equivalence, max), expected, "{key} of {case}, swapped");
     }
 }

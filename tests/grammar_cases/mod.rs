@@ -1,4 +1,4 @@
-//! The reference cases and base meshes, read from `tests/data/grammar`.
+//! The reference cases and base meshes, read from `tests/data/grammar` and `tests/data/grammar_independent`.
 #![allow(
     dead_code,
     clippy::unwrap_used,
@@ -8,19 +8,52 @@
 use quadrille::mesh::{BaseMeshError, InitialMesh, base_json};
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-/// Text of a file under `tests/data/grammar`, also for the fuzz targets, whose crate lies in a folder of this one.
-pub fn text(name: &str) -> String {
-    let folders =
-        Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().map(|folder| folder.join("tests/data/grammar"));
-    let path = folders.map(|folder| folder.join(name)).find(|path| path.exists()).expect(name);
+/// The given cases, and those of an implementation that shares nothing with this one: folders of `tests/data`.
+pub const GIVEN: &str = "grammar";
+/// See [`GIVEN`].
+pub const INDEPENDENT: &str = "grammar_independent";
+
+/// A file or folder of a set, also for the fuzz targets, whose crate lies in a folder of this one.
+fn path(set: &str, name: &str) -> PathBuf {
+    let folders = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors();
+    let mut paths = folders.map(|folder| folder.join("tests/data").join(set).join(name));
+    paths.find(|path| path.exists()).expect(name)
+}
+
+/// Text of a file of a set.
+fn text_in(set: &str, name: &str) -> String {
+    let path = path(set, name);
     std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// `vectors.json`.
+/// Text of a file under `tests/data/grammar`.
+pub fn text(name: &str) -> String {
+    text_in(GIVEN, name)
+}
+
+/// `vectors.json` of a set.
+pub fn vectors_in(set: &str) -> Value {
+    serde_json::from_str(&text_in(set, "vectors.json")).unwrap()
+}
+
+/// `vectors.json` of the given cases.
 pub fn vectors() -> Value {
-    serde_json::from_str(&text("vectors.json")).unwrap()
+    vectors_in(GIVEN)
+}
+
+/// The base meshes of both sets by name.
+pub fn all_bases() -> BTreeMap<String, InitialMesh> {
+    let mut bases = bases();
+    for entry in std::fs::read_dir(path(INDEPENDENT, "bases")).unwrap() {
+        let path = entry.unwrap().path();
+        let base = base_json::read(&std::fs::read_to_string(&path).unwrap()).unwrap();
+        let name = path.file_stem().unwrap().to_string_lossy().into_owned();
+        let twin = bases.insert(name, InitialMesh::from_base(&base).unwrap());
+        assert!(twin.is_none(), "{}: both sets have a base of this name", path.display());
+    }
+    bases
 }
 
 /// The twelve base meshes by name.
