@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use quadrille::config::{self, Config};
+use quadrille::geometry::params::RelaxKind;
 use std::path::Path;
 
 fn load(name: &str) -> Config {
@@ -76,4 +77,23 @@ fn differences_name_keys() {
         config::differences(&load("dome.toml"), &changed),
         ["domain.loop", "run.threads", "search.tokens.max"]
     );
+}
+
+/// GEOMETRY §2.4: the paper's cable net is relaxed otherwise than its gridshell, unless the config says so.
+#[test]
+fn a_free_surface_has_its_own_defaults() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("net.toml");
+    let relax = |more: &str| {
+        let text = format!(
+            "version = 1\n[[domain.loop]]\nkind = \"circle\"\ncenter_m = [0, 0]\nradius_m = 5\n\
+             [surface]\nkind = \"free\"\n{more}"
+        );
+        std::fs::write(&file, text).unwrap();
+        let relax = config::load(&file, &[]).unwrap().pattern.relax;
+        (relax.kind, relax.sweeps, relax.damping)
+    };
+    assert_eq!(relax(""), (RelaxKind::Uniform, 500, 0.5));
+    assert_eq!(relax("[pattern]\nrelax = { kind = \"cotangent\" }"), (RelaxKind::Cotangent, 500, 0.5));
+    assert_eq!(relax("[pattern]\nrelax = { sweeps = 7 }"), (RelaxKind::Uniform, 7, 0.5));
 }

@@ -2,7 +2,7 @@
 
 use super::CliError;
 use quadrille::config::{self, Config};
-use quadrille::study::Study;
+use quadrille::study::{Study, StudyError};
 use std::path::{Path, PathBuf};
 
 /// A config, and keys set for this run.
@@ -30,10 +30,13 @@ impl ConfigArgs {
 
     /// Makes a loaded config ready.
     pub fn study(&self, config: &Config) -> Result<Study, CliError> {
-        Study::new(config, self.folder()).map_err(|error| {
-            let place = config::place_of(&self.config, &self.set, &error.key(config));
-            let place = place.map_or_else(|| self.config.display().to_string(), |place| place.to_string());
-            CliError::Input(format!("{place}: {error}"))
-        })
+        Study::new(config, self.folder()).map_err(|error| self.located(config, &error))
+    }
+
+    /// What is wrong, with the place of the key that says it.
+    pub fn located(&self, config: &Config, error: &StudyError) -> CliError {
+        let place = config::place_of(&self.config, &self.set, &error.key(config));
+        let place = place.map_or_else(|| self.config.display().to_string(), |place| place.to_string());
+        CliError::Input(format!("{place}: {error}"))
     }
 }

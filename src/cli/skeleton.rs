@@ -1,13 +1,15 @@
 //! `quadrille skeleton`: the initial mesh of a config.
 
+use super::config_args::ConfigArgs;
 use super::{CliError, Console};
-use quadrille::config;
+use quadrille::config::Config;
 use quadrille::domain::Domain;
 use quadrille::io::obj;
 use quadrille::mesh::BaseMesh;
+use quadrille::study::StudyError;
 use quadrille::{skeleton, surface};
 use serde_json::json;
-use std::path::PathBuf;
+use std::path::Path;
 use std::process::ExitCode;
 
 /// Print the initial mesh of a config: from the medial axis of its domain, or as the config gives it.
@@ -16,12 +18,8 @@ use std::process::ExitCode;
 /// singular ones their valence (orange: fewer edges than regular, blue: more), corners are white, the marker is green.
 #[derive(clap::Args)]
 pub struct Args {
-    /// The config.
-    #[arg(value_name = "CONFIG.toml")]
-    config: PathBuf,
-    /// Set a key of the config, as in `surface.kind="plane"`; may be given several times.
-    #[arg(long, value_name = "KEY=VALUE")]
-    set: Vec<String>,
+    #[command(flatten)]
+    config: ConfigArgs,
     /// What to print.
     #[arg(long, value_enum, default_value_t = Format::Svg)]
     format: Format,
@@ -39,20 +37,28 @@ enum Format {
 
 /// Prints the mesh.
 pub fn run(args: Args, _console: &Console) -> Result<ExitCode, CliError> {
-    let config = config::load(&args.config, &args.set)?;
-    let folder = config::folder_of(&args.config);
-    let wrong =
-        |error: &dyn std::error::Error| CliError::Input(format!("{}: {error}", args.config.display()));
-    let surface = surface::build(&config.surface, folder).map_err(|e| wrong(&e))?;
-    let domain = Domain::resolve(&config.domain, &surface, folder).map_err(|e| wrong(&e))?;
-    let base = skeleton::initial(&config.topology, &domain, folder).map_err(|e| wrong(&e))?;
-    let name = args.config.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
+    let config = args.config.load(&[])?;
+    let (domain, base) =
+        initial_mesh(&config, args.config.folder()).map_err(|error| args.config.located(&config, &error))?;
+    let file = &args.config.config;
+    let name = file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
     match args.format {
-        Format::Svg => out!("{}", skeleton::picture::svg(&base, &domain, &name).map_err(|e| wrong(&e))?),
+        Format::Svg => match skeleton::picture::svg(&base, &domain, &name) {
+            Ok(picture) => out!("{picture}"),
+            Err(error) => return Err(CliError::Input(format!("{}: {error}", file.display()))),
+        },
         Format::Json => outln!("{}", to_json(&base)),
         Format::Obj => out!("{}", obj::write(&name, &base)),
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// The domain and its mesh, which need nothing else of the config.
+fn initial_mesh(config: &Config, folder: &Path) -> Result<(Domain, BaseMesh), StudyError> {
+    let surface = surface::build(&config.surface, folder)?;
+    let domain = Domain::resolve(&config.domain, &surface, folder)?;
+    let base = skeleton::initial(&config.topology, &domain, folder)?;
+    Ok((domain, base))
 }
 
 /// A base mesh file, as RUN describes it.

@@ -126,7 +126,7 @@ fn resolve(source: &Source, stem: &str, folder: &Path) -> Result<Config, ConfigE
         source.locate(vec![Problem::new(key, error.inner().message().to_owned())])
     })?;
     config.run.name.get_or_insert_with(|| stem.to_owned());
-    resolved::fill_in(&mut config);
+    resolved::fill_in(&mut config, source.values());
     let problems = rules::check(&config, folder);
     if problems.is_empty() { Ok(config) } else { Err(source.locate(problems)) }
 }

@@ -2,16 +2,27 @@
 
 use super::{Config, KeyPath, names};
 use crate::domain::params::LoopParams;
-use crate::geometry::params::InitialMesh;
+use crate::geometry::params::{FREE_SWEEPS, InitialMesh, RelaxKind};
 use crate::structure::params::{HeightParams, SectionParams, StructureParams};
 use crate::surface::params::SurfaceParams;
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
 use std::path::PathBuf;
-use toml::Value;
+use toml::{Table, Value};
 
-/// Fills in defaults that depend on other keys.
-pub(super) fn fill_in(config: &mut Config) {
+/// Fills in defaults that depend on other keys; `given` is the config as written.
+pub(super) fn fill_in(config: &mut Config, given: &Table) {
+    if config.surface == (SurfaceParams::Free {}) {
+        // GEOMETRY §2.4: the paper's cable net, not its gridshell.
+        let relax = given.get("pattern").and_then(|pattern| pattern.get("relax"));
+        let is_given = |key: &str| relax.is_some_and(|relax| relax.get(key).is_some());
+        if !is_given("kind") {
+            config.pattern.relax.kind = RelaxKind::Uniform;
+        }
+        if !is_given("sweeps") {
+            config.pattern.relax.sweeps = FREE_SWEEPS;
+        }
+    }
     if let Some(structure) = &config.structure {
         let width = section_width(structure);
         config.pattern.limits.min_edge_m.get_or_insert(2.0 * width);

@@ -141,7 +141,7 @@ pub enum DomainError {
     },
     /// The file does not have this polyline.
     #[error(
-        "domain.loop[{loop_number}]: {file} has {found} polylines (`l`), number {polyline} (from 0) does not exist"
+        "domain.loop[{loop_number}]: {file} has {found} polylines (`l`), number {polyline} (from 0) does not exist: export the boundary as a polyline"
     )]
     NoSuchPolyline {
         /// The loop.
@@ -203,8 +203,12 @@ impl DomainError {
                 format!("domain.loop[{loop_number}].corners")
             }
             Self::CornerAngle { loop_number, .. } => format!("domain.loop[{loop_number}].corner_angle_deg"),
-            Self::NoSuchPolyline { loop_number, .. } => format!("domain.loop[{loop_number}].polyline"),
-            Self::File { loop_number, .. } | Self::OpenPolyline { loop_number, .. } => {
+            Self::NoSuchPolyline { loop_number, polyline: 1.., .. } => {
+                format!("domain.loop[{loop_number}].polyline")
+            }
+            Self::NoSuchPolyline { loop_number, .. }
+            | Self::File { loop_number, .. }
+            | Self::OpenPolyline { loop_number, .. } => {
                 format!("domain.loop[{loop_number}].file")
             }
             Self::LoopsMeet { second: loop_number, .. }

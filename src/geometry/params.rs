@@ -48,13 +48,16 @@ pub enum Density {
     TargetLength,
 }
 
+/// Sweeps on a free surface where the config does not say.
+pub const FREE_SWEEPS: usize = 500;
+
 /// Relaxation of the dense pattern.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct RelaxParams {
-    /// Weights of the smoothing.
+    /// Weights of the smoothing; default on a free surface `uniform`.
     pub kind: RelaxKind,
-    /// Number of Jacobi sweeps.
+    /// Number of Jacobi sweeps; default on a free surface 500.
     pub sweeps: usize,
     /// Share of the way to the target that each sweep goes, in 0..1.
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 1))]

@@ -160,11 +160,13 @@ pub fn read(file: &Path) -> Result<BaseMesh, ReadError> {
         return Ok(base);
     }
     let text = String::from_utf8(crate::io::read_bytes(file)?).map_err(|e| content(e.to_string()))?;
-    let base = match serde_json::from_str::<serde_json::Value>(&text) {
-        Ok(value) if value.get("vertices").is_none() => compas::from_value(&value).map_err(content)?,
-        _ => base_json::read(&text).map_err(|e| content(e.to_string()))?,
+    let (base, counted) = match serde_json::from_str::<serde_json::Value>(&text) {
+        Ok(value) if value.get("vertices").is_none() => {
+            (compas::from_value(&value).map_err(content)?, " (counted from 0 in the order of the keys)")
+        }
+        _ => (base_json::read(&text).map_err(|e| content(e.to_string()))?, ""),
     };
-    InitialMesh::from_base(&base).map_err(|error| content(error.to_string()))?;
+    InitialMesh::from_base(&base).map_err(|error| content(format!("{error}{counted}")))?;
     Ok(base)
 }
 

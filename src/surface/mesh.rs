@@ -114,7 +114,9 @@ impl Surface for MeshSurface {
 
     fn extent(&self) -> String {
         let [[x0, y0], [x1, y1]] = self.bounds;
-        format!("the mesh lies within x {x0} to {x1}, y {y0} to {y1}")
+        let upright = x0 == x1 || y0 == y1;
+        let hint = if upright { "; it stands upright: files are read with z up" } else { "" };
+        format!("the mesh lies within x {x0} to {x1}, y {y0} to {y1}{hint}")
     }
 
     fn is_smooth(&self) -> bool {

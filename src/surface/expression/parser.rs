@@ -273,7 +273,11 @@ impl Parser<'_> {
             .names
             .keys()
             .map(|known| (strsim::damerau_levenshtein(name, known), known))
-            .filter(|&(distance, known)| distance <= 2 && distance < known.len().min(name.len()))
+            // Two letters off is near only if the word begins alike.
+            .filter(|&(distance, known)| {
+                let begins_alike = name.chars().next() == known.chars().next();
+                distance < known.len().min(name.len()) && distance <= 1 + usize::from(begins_alike)
+            })
             .min();
         match nearest {
             Some((_, known)) => format!("unknown name `{name}`; did you mean `{known}`?"),
