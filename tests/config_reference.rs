@@ -20,7 +20,8 @@ fn reference_is_up_to_date() {
 }
 
 /// Numbers that may be anything finite: places, angles, heights of surfaces, factors, loads, values of objectives.
-const FREE: [&str; 13] = [
+const FREE: [&str; 14] = [
+    "mark_m",
     "points_m",
     "center_m",
     "rotation_deg",

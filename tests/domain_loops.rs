@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-use quadrille::domain::{Domain, DomainError, DomainParams};
+use quadrille::domain::{Domain, DomainError, DomainParams, Symmetry};
 use quadrille::surface::{self, SurfaceParams};
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
@@ -117,6 +117,26 @@ fn an_ellipse_has_its_perimeter_and_its_mark() {
     let mark = l.point(domain.mark().unwrap());
     assert!((mark[0] - 2.0).abs() < 1e-9 && (mark[1] - 2.0).abs() < 1e-6);
     assert!((domain.area() - 3.0 * PI).abs() < 1e-12);
+}
+
+#[test]
+fn a_mark_can_be_given() {
+    let disc = |mark: &str| {
+        let text = format!("{mark}\n[[loop]]\nkind = 'circle'\ncenter_m = [1, 0]\nradius_m = 2");
+        resolve(&text, "kind = 'plane'").unwrap()
+    };
+    let above = disc("mark_m = [1, 9]");
+    let [x, y, _] = above.loops[0].point(above.mark().unwrap());
+    assert!((x - 1.0).abs() < 1e-12 && (y - 2.0).abs() < 1e-12, "({x}, {y})");
+    // A mirror that moves the mark is none.
+    assert!(above.symmetries(&[Symmetry::MirrorX]).is_ok());
+    let refused = disc("").symmetries(&[Symmetry::MirrorX]).err().map(|error| error.to_string());
+    assert!(refused.as_ref().is_some_and(|error| error.contains("mark_m")), "{refused:?}");
+    let beside = resolve(&format!("mark_m = [1, 9]\n{COURT}"), "kind = 'plane'").err();
+    assert!(
+        beside.as_ref().is_some_and(|error| error.to_string().starts_with("domain.mark_m")),
+        "{beside:?}"
+    );
 }
 
 #[test]

@@ -185,7 +185,7 @@ fn random_domains() {
         let mut rng = random::stream(11, seed, 0);
         let mut loops = vec![random_outline(&mut rng)];
         loops.extend((0..random::below(&mut rng, 4)).map(|_| random_hole(&mut rng)).collect::<Vec<_>>());
-        let params = DomainParams { symmetries: Vec::new(), loops };
+        let params = DomainParams { symmetries: Vec::new(), mark_m: None, loops };
         let Ok(domain) = Domain::resolve(&params, &plane, std::path::Path::new(".")) else { continue };
         tried += 1;
         match skeleton::initial_mesh(&domain) {

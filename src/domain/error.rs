@@ -175,6 +175,11 @@ pub enum DomainError {
         /// Where the surface is.
         extent: String,
     },
+    /// A mark where corners hold the pattern.
+    #[error(
+        "domain.mark_m: found beside corners, which hold the pattern; allowed where no loop has a corner"
+    )]
+    MarkBesideCorners,
     /// A symmetry of the config that boundary or surface do not have.
     #[error("domain.symmetries: the domain does not have `{symmetry}`: {reason}")]
     NotSymmetric {
@@ -191,6 +196,7 @@ impl DomainError {
         match self {
             Self::NoLoop => "domain.loop".to_owned(),
             Self::NotCovered { .. } => "surface".to_owned(),
+            Self::MarkBesideCorners => "domain.mark_m".to_owned(),
             Self::NotSymmetric { .. } => "domain.symmetries".to_owned(),
             Self::Coordinates { loop_number, what, .. } | Self::NotFinite { loop_number, what, .. } => {
                 format!("domain.loop[{loop_number}].{what}")

@@ -21,6 +21,8 @@ use std::sync::Arc;
 pub struct Domain {
     /// The boundary loops, all counter-clockwise in plan; loop 0 is the outer one, the others are holes.
     pub loops: Vec<BoundaryLoop>,
+    /// Curve parameter of the mark on loop 0; it counts where no loop has a corner.
+    mark: f64,
 }
 
 impl Domain {
@@ -48,9 +50,16 @@ impl Domain {
         let curves: Vec<_> = read.iter().map(|(curve, _)| curve.clone()).collect();
         check::curves(&curves)?;
         check::covered(&curves, surface.as_ref())?;
+        let mark = match params.mark_m {
+            None => curves[0].rightmost(),
+            Some(_) if read.iter().any(|(_, corners)| !corners.is_empty()) => {
+                return Err(DomainError::MarkBesideCorners);
+            }
+            Some([x, y]) => curves[0].closest([x, y, 0.0], true),
+        };
         let loops =
             read.into_iter().map(|(curve, corners)| BoundaryLoop::new(curve, surface, corners)).collect();
-        Ok(Self { loops })
+        Ok(Self { loops, mark })
     }
 
     /// Corners of all loops together.
@@ -72,11 +81,10 @@ impl Domain {
         })
     }
 
-    /// Where no loop has a corner: arc length on loop 0 of the mark that fixes the turn of a pattern, the point of
+    /// Where no loop has a corner: arc length on loop 0 of the mark that fixes the turn of a pattern, by default its point of
     /// largest x (GEOMETRY §0.4). It is not sharp.
     pub fn mark(&self) -> Option<f64> {
-        let outer = &self.loops[0];
-        (self.corner_count() == 0).then(|| outer.arc_length(outer.curve.rightmost()))
+        (self.corner_count() == 0).then(|| self.loops[0].arc_length(self.mark))
     }
 
     /// Height of the surface over (x, y); `None` on a free surface and where it does not reach.

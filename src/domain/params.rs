@@ -11,6 +11,10 @@ pub struct DomainParams {
     /// Symmetries of boundary, surface, supports and loads that make two designs the same: `mirror-x`, `mirror-y`, `rotate-180`.
     #[serde(default)]
     pub symmetries: Vec<Symmetry>,
+    /// Where no loop has a corner: the point of the outer loop, in metres, at which the pattern is held from turning; the closest
+    /// point of the loop counts. Default: its point of largest x.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mark_m: Option<[f64; 2]>,
     /// Boundary loops; the first is the outer one.
     #[serde(rename = "loop")]
     #[schemars(extend("minItems" = 1))]

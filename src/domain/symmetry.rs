@@ -59,9 +59,8 @@ impl Domain {
         if let Some(s) = self.mark() {
             let p = self.loops[0].point(s);
             if distance(p, self.image(p, kind)) > tolerance {
-                return Err(fault(
-                    "the mark of a domain without corners, its point of largest x, does not stay".to_owned(),
-                ));
+                let mark = "the mark of a domain without corners, mark_m, by default its point of largest x";
+                return Err(fault(format!("{mark}, does not stay")));
             }
         }
         self.check_heights(kind, tolerance).map_err(fault)?;
