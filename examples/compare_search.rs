@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! cargo run --release --example compare_search -- RANDOM.toml OTHER.toml…
-//!     [--seeds 11] [--objectives mass,curvature] [--set key=value]… [--cache FILE]
+//!     [--seeds 11] [--first-seed 1] [--objectives mass,curvature] [--set key=value]… [--cache FILE]
 //! ```
 //!
 //! Configs may differ in `[run]`, `[objectives]` and `[search]` only: evaluations are pure, so they are shared between
@@ -10,7 +10,8 @@
 //! hypervolumes are measured between the 1 % and the 95 % quantile of the feasible designs of the first config's runs,
 //! one reference for all; the first config is also the one to beat, so name random sampling first. A config may be
 //! followed by keys for it alone, as in `default.toml:search.archive.parents=0.2`. "Share closed" is how much of the
-//! way from the first config's median to the best known (the front of all runs together) the median goes.
+//! way from the first config's median to the best known (the front of all runs together) the median goes. After the
+//! table come the pairs that each config wins against each before it, with the two-sided sign test.
 
 #![allow(
     clippy::print_stdout,
@@ -45,6 +46,8 @@ struct Arguments {
     configs: Vec<String>,
     #[arg(long, default_value_t = 11)]
     seeds: u64,
+    #[arg(long, default_value_t = 1)]
+    first_seed: u64,
     #[arg(long, value_delimiter = ',')]
     objectives: Vec<String>,
     #[arg(long)]
@@ -187,6 +190,20 @@ fn volume(points: &[Vec<f64>], axes: &Normalisation) -> f64 {
     axes.hypervolume(points.iter().map(Vec::as_slice))
 }
 
+/// How many of the pairs `a` wins and how many are decided, and how probable a result at least as one-sided is if
+/// both win equally often: the two-sided sign test.
+fn sign_test(a: &[f64], b: &[f64]) -> (usize, usize, f64) {
+    let wins = a.iter().zip(b).filter(|(a, b)| a > b).count();
+    let decided = a.iter().zip(b).filter(|(a, b)| a != b).count();
+    // Binomial coefficients of the tail, each from the one before.
+    let (mut tail, mut ways) = (0.0, 1.0);
+    for k in 0..=wins.min(decided - wins) {
+        tail += ways;
+        ways *= (decided - k) as f64 / (k + 1) as f64;
+    }
+    (wins, decided, f64::min(1.0, 2.0 * tail / 2f64.powi(decided as i32)))
+}
+
 fn front(outcome: &Outcome) -> Vec<Vec<f64>> {
     outcome.front.iter().map(|&i| outcome.evaluated[i].objectives.to_vec()).collect()
 }
@@ -202,7 +219,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut outcomes: Vec<Vec<Outcome>> = Vec::new();
     for variant in &variants {
         let mut of_variant = Vec::new();
-        for seed in 1..=arguments.seeds {
+        for seed in (arguments.first_seed..).take(arguments.seeds as usize) {
             of_variant.push(variant.search(&cache, seed, arguments.threads)?);
             eprint!("\r{}: seed {seed} ", variant.name);
         }
@@ -245,6 +262,13 @@ fn print(variants: &[Variant], outcomes: &[Vec<Outcome>]) -> Result<(), Box<dyn 
             mean(&|o| o.breeding.rejected),
             mean(&|o| o.breeding.cached),
         );
+    }
+    println!();
+    for (k, (row, a)) in variants.iter().zip(&volumes).enumerate() {
+        for (column, b) in variants.iter().zip(&volumes).take(k) {
+            let (wins, decided, p) = sign_test(a, b);
+            println!("{} beats {} in {wins} of {decided} pairs (p = {p:.3})", row.name, column.name);
+        }
     }
     for (Variant { name, .. }, of) in variants.iter().zip(outcomes) {
         println!("\n{name}: operator used/evaluated/survived/entered the front, sums over seeds");

@@ -69,8 +69,8 @@ pub struct SearchParams {
 impl Default for SearchParams {
     fn default() -> Self {
         Self {
-            population: 48,
-            generations: 25,
+            population: 16,
+            generations: 75,
             evaluations: None,
             minutes: None,
             stall_generations: None,
