@@ -84,9 +84,17 @@ fn wrong_input_says_what_and_where_with_exit_2() {
     ];
     for (change, expected) in wrong {
         let (code, out, err) = changed(change);
-        assert_eq!((code, out.as_str()), (2, ""), "{expected}: {err}");
+        let answer: Value = serde_json::from_str(&out).unwrap();
+        assert_eq!((code, &answer["error"]), (2, &json!("refused")), "{expected}: {err}");
+        assert!(answer["message"].as_str().unwrap().contains(expected), "{expected:?} is not in {answer}");
         assert!(err.contains("model.json") && err.contains(expected), "{expected:?} is not in {err}");
     }
+    let (code, out, err) = changed(|m| {
+        m["section"] = json!({"kind": "properties", "A": 1e-3, "Iy": 1e-5, "Iz": 1e-5, "J": 1e-5});
+    });
+    // Moduli that are not given leave the utilisation out, no more.
+    assert_eq!((code, err.as_str()), (0, ""));
+    assert!(serde_json::from_str::<Value>(&out).unwrap()["utilisation"].is_null());
     let (code, _, err) = frame(&["no_such_file.json"]);
     assert!(code == 2 && err.contains("no_such_file.json"), "{err}");
 }

@@ -35,7 +35,15 @@ enum Format {
 pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     let name = args.model.display();
     let text = std::fs::read_to_string(&args.model).map_err(CliError::read(&args.model))?;
-    let (model, analysis) = file::read(&text).map_err(|e| CliError::Input(format!("{name}: {e}")))?;
+    let (model, analysis) = match file::read(&text) {
+        Ok(read) => read,
+        Err(error) => {
+            if args.format == Format::Json {
+                print_result(format!("{}\n", file::refusal(&error)).as_bytes())?;
+            }
+            return Err(CliError::Input(format!("{name}: {error}")));
+        }
+    };
     let answer = frame(&model, &analysis);
     let printed = match (&answer, args.format) {
         (Ok(result), Format::Json) => {

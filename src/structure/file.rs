@@ -72,7 +72,9 @@ struct Properties {
     Iy: f64,
     Iz: f64,
     J: f64,
+    #[serde(default)]
     Wy: f64,
+    #[serde(default)]
     Wz: f64,
     #[serde(default)]
     Asy: f64,
@@ -280,6 +282,11 @@ pub fn answer(result: &FrameResult) -> serde_json::Result<Vec<u8>> {
     let mut bytes = serde_json::to_vec(&answer)?;
     bytes.push(b'\n');
     Ok(bytes)
+}
+
+/// The JSON of a model that is refused: `error` is `refused`.
+pub fn refusal(error: &FileError) -> serde_json::Value {
+    serde_json::json!({ "error": "refused", "message": error.to_string() })
 }
 
 /// The JSON of a failed analysis: `error` is `singular`, `unstable`, `not finite`, `ill-conditioned` or
