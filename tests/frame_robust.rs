@@ -81,6 +81,28 @@ fn model(seed: u32) -> Value {
     })
 }
 
+/// Largest stiffness against stretching over the smallest against bending, A/L over 12 I/L³, of all members. Forces are
+/// differences of displacements: with 16 digits they are balanced to that many times 2e-16, and no better.
+fn spread_of_stiffness(case: &Value) -> f64 {
+    let section = &case["section"];
+    let number = |key: &str| section[key].as_f64().unwrap_or(f64::NAN);
+    let (area, i) = if section["kind"] == "box" {
+        let (b, h, t) = (number("width"), number("height"), number("thickness"));
+        (2.0 * t * (b + h), t * b * b * (b / 6.0 + 0.5 * h))
+    } else {
+        (number("A"), number("Iy").min(number("Iz")))
+    };
+    let nodes: Vec<[f64; 3]> = serde_json::from_value(case["nodes"].clone()).unwrap();
+    let (mut stiff, mut soft) = (0.0f64, f64::INFINITY);
+    for member in case["members"].as_array().unwrap() {
+        let [a, b] = ["start", "end"].map(|end| nodes[member[end].as_u64().unwrap() as usize]);
+        let length = (0..3).map(|d| (a[d] - b[d]).powi(2)).sum::<f64>().sqrt();
+        stiff = stiff.max(area / length);
+        soft = soft.min(12.0 * i / length.powi(3));
+    }
+    stiff / soft
+}
+
 /// Whether every number is finite and the free directions of every node are in equilibrium.
 fn in_equilibrium(case: &Value, result: &FrameResult) -> Result<(), String> {
     let numbers = result.displacements.iter().flatten().chain(&result.buckling_factors);
@@ -136,7 +158,12 @@ fn every_model_is_answered_or_its_error_named() {
                 }
                 Err(FrameError::Unstable(_)) => "unstable",
                 Err(FrameError::NotFinite) => "not finite",
-                Err(FrameError::IllConditioned(_)) => "ill-conditioned",
+                Err(FrameError::IllConditioned(left)) => {
+                    // Said only where it cannot be otherwise.
+                    let spread = spread_of_stiffness(&case);
+                    assert!(spread > 1e8, "seed {seed}: {left:e} left over, spread {spread:e}\n{case}");
+                    "ill-conditioned"
+                }
                 Err(FrameError::NoConvergence) => "not converged",
                 Err(error) => panic!("seed {seed}: {error}\n{case}"),
             },
@@ -145,10 +172,7 @@ fn every_model_is_answered_or_its_error_named() {
     }
     println!("{tally:?}");
     let count = |outcome| tally.get(outcome).copied().unwrap_or(0);
-    assert!(
-        count("not converged") <= models() / 200 && count("ill-conditioned") <= models() / 12,
-        "{tally:?}"
-    );
+    assert!(count("not converged") <= models() / 200, "{tally:?}");
     for outcome in ["answered", "refused", "singular"] {
         assert!(tally.get(outcome).is_some_and(|n| *n > models() / 50), "{outcome} is too rare: {tally:?}");
     }

@@ -16,8 +16,8 @@ use crate::structure::params::{HeightParams, StructureParams};
 pub const RESOLUTION: f64 = 1e-4;
 /// The power of the height that a first guess supposes.
 const POWER: f64 = 1.0;
-/// Every so many cuts one halves the bracket, so that it cannot crawl.
-const HALVE_EVERY: usize = 5;
+/// After so many cuts the bracket must be half as wide; else the next one halves it, so that it cannot crawl.
+const HALF_BY: usize = 5;
 /// While no height is known to be too low, a cut goes no further down than to this share of the last: what is far too
 /// low tells nothing, and takes long to be found unstable.
 const BOLDEST: f64 = 0.5;
@@ -153,6 +153,10 @@ impl Bracket {
         }
     }
 
+    fn width(&self) -> f64 {
+        self.high.height - self.low.as_ref().map_or(self.min, |low| low.height)
+    }
+
     fn is_narrow(&self) -> bool {
         match &self.low {
             Some(low) => self.high.height - low.height <= RESOLUTION,
@@ -164,21 +168,25 @@ impl Bracket {
         mut self,
         mut used: impl FnMut(f64) -> Result<Point, AnalysisError>,
     ) -> Result<f64, AnalysisError> {
+        let mut wide = self.width();
         for cut in 1.. {
             if self.is_narrow() {
                 break;
             }
-            let height = self.next_cut(cut);
+            let crawls = cut % HALF_BY == 0 && self.width() > 0.5 * wide;
+            if cut % HALF_BY == 0 {
+                wide = self.width();
+            }
+            let height = self.next_cut(crawls);
             self.add(used(height)?);
         }
         Ok(self.high.height)
     }
 
     /// Where to cut the bracket next.
-    fn next_cut(&self, cut: usize) -> f64 {
-        let bottom = self.low.as_ref().map_or(self.min, |low| low.height);
-        let halved = 0.5 * (bottom + self.high.height);
-        let expected = if cut.is_multiple_of(HALVE_EVERY) { None } else { self.expected() };
+    fn next_cut(&self, crawls: bool) -> f64 {
+        let halved = self.high.height - 0.5 * self.width();
+        let expected = if crawls { None } else { self.expected() };
         let Some(low) = &self.low else {
             let high = self.high.height;
             let height = expected.unwrap_or(halved).max(BOLDEST * high).min(high - 0.5 * RESOLUTION);
