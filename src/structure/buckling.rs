@@ -129,11 +129,12 @@ impl<'a, 'm> Lanczos<'a, 'm> {
     fn new(solver: &'a mut Solver<'m>, axial: &'a [f64], search: Search) -> Self {
         let n = solver.system().unknowns();
         let block = (search.modes + 1).clamp(2, 6);
+        let most = (8 * block).max(40);
         Self {
             block,
-            most: (8 * block).max(40),
-            v: Columns::with_room(n, (8 * block).max(40)),
-            w: Columns::with_room(n, (8 * block).max(40)),
+            most,
+            v: Columns::with_room(n, most),
+            w: Columns::with_room(n, most),
             t: DMatrix::zeros(0, 0),
             rng: random::stream(0x6275_636b, 0, 0),
             local: search.tolerance > LOCAL,

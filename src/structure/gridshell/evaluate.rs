@@ -267,9 +267,9 @@ impl<'a> Evaluator<'a> {
 
     /// The first combination that cannot be proved stable.
     fn not_stable(&mut self) -> Option<usize> {
-        self.factored_at = self.current.map_or(0.0, |current| current.height);
         let doubtful: Vec<usize> = (0..self.states.len()).filter(|&s| !self.states[s].stable).collect();
         let (&first, others) = doubtful.split_first()?;
+        self.factored_at = self.current.map_or(0.0, |current| current.height);
         let mut least = self.states[first].axial.clone();
         for &s in others {
             least.iter_mut().zip(&self.states[s].axial).for_each(|(least, n)| *least = least.min(*n));
