@@ -157,6 +157,9 @@ fn evaluate_compares_given_strings() {
     assert_eq!(table.lines().count(), 3);
     let largest = text(&read(temporary.path(), "o/normalised.csv"));
     assert!(largest.lines().skip(1).any(|line| line.split(',').any(|cell| cell == "1")));
+    let not_a_run = quadrille(temporary.path(), &["export", "o", "--design", "0", "--format", "obj"]);
+    assert_eq!(not_a_run.status.code(), Some(2));
+    assert!(text(&not_a_run.stderr).contains("`evaluate` wrote it"), "{}", text(&not_a_run.stderr));
     let wrong = quadrille(temporary.path(), &["evaluate", ci, "--string", "ATXA"]);
     assert_eq!(wrong.status.code(), Some(2));
     assert!(text(&wrong.stderr).contains("at character 2"), "{}", text(&wrong.stderr));

@@ -6,6 +6,7 @@ use super::deviations::Deviations;
 use super::{CliError, Console};
 use quadrille::grammar::Tokens;
 use quadrille::output::atomic;
+use quadrille::output::folder::EVALUATION;
 use quadrille::output::results::Developed;
 use quadrille::study::Study;
 use std::path::{Path, PathBuf};
@@ -97,7 +98,7 @@ fn write(
     let designs = folder.join("designs");
     std::fs::create_dir_all(&designs).map_err(CliError::write(&designs))?;
     let save = |path: PathBuf, bytes: &[u8]| atomic::write(&path, bytes).map_err(CliError::write(&path));
-    save(folder.join("evaluation.csv"), &comparison.table().to_csv())?;
+    save(folder.join(EVALUATION), &comparison.table().to_csv())?;
     save(folder.join("normalised.csv"), &comparison.normalised().to_csv())?;
     for entry in &comparison.entries {
         match Developed::of(study, config, &entry.tokens) {

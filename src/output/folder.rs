@@ -16,6 +16,8 @@ pub const GENERATIONS: &str = "generations.csv";
 pub const OPERATORS: &str = "operators.csv";
 /// What was run, with what, where and when.
 pub const MANIFEST: &str = "manifest.json";
+/// The designs that `evaluate` compares.
+pub const EVALUATION: &str = "evaluation.csv";
 /// State of an unfinished run.
 pub const CHECKPOINT: &str = "checkpoint.json";
 /// The one before.

@@ -1,7 +1,7 @@
 //! A results folder read back: what `report`, `export`, `verify` and `explain` start from.
 
 use super::designs::{Columns, FIRST, LAST};
-use super::folder::{GENERATIONS, HISTORY, MANIFEST, PARETO};
+use super::folder::{CHECKPOINT, EVALUATION, GENERATIONS, HISTORY, JOURNAL, MANIFEST, PARETO};
 use super::manifest::Manifest;
 use crate::config::Config;
 use crate::evolve::Violation;
@@ -15,6 +15,12 @@ use std::path::{Path, PathBuf};
 /// Why a results folder cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
+    /// The folder is not that of a run.
+    #[error("{}: not the results folder of a run: it has no {MANIFEST}; {}", folder.display(), cure(folder))]
+    NotARun {
+        /// The folder.
+        folder: PathBuf,
+    },
     /// A file is missing or cannot be read.
     #[error("{}: {source}", path.display())]
     Read {
@@ -56,6 +62,9 @@ pub struct Loaded {
 /// [`LoadError`] with file and line.
 pub fn load(folder: &Path) -> Result<Loaded, LoadError> {
     let path = folder.join(MANIFEST);
+    if !path.exists() {
+        return Err(LoadError::NotARun { folder: folder.to_path_buf() });
+    }
     let wrong = |message: String| LoadError::Format { path: path.clone(), message };
     let manifest: Manifest =
         serde_json::from_slice(&read(&path)?).map_err(|error| wrong(error.to_string()))?;
@@ -71,6 +80,18 @@ pub fn load(folder: &Path) -> Result<Loaded, LoadError> {
     let generations = Sheet::each(folder, GENERATIONS, |record| generation(record, &columns))?;
     let config_folder = PathBuf::from(&manifest.config_folder);
     Ok(Loaded { manifest, config, config_folder, evaluated, front, generations })
+}
+
+/// What a folder without a manifest is, and what to do.
+fn cure(folder: &Path) -> &'static str {
+    if folder.join(EVALUATION).exists() {
+        "`evaluate` wrote it, and its designs are in designs/ already; to have them in a run's folder, give their \
+         strings as search.initial.seeds"
+    } else if folder.join(CHECKPOINT).exists() || folder.join(JOURNAL).exists() {
+        "the run there is unfinished: end it with `quadrille run CONFIG --resume`"
+    } else {
+        "give the folder that `run` wrote"
+    }
 }
 
 pub(super) fn read(path: &Path) -> Result<Vec<u8>, LoadError> {
