@@ -159,3 +159,28 @@ fn the_free_node_and_direction_are_named() {
     let Err(FrameError::Unstable(motion)) = frame(&model, &analysis) else { panic!("must be unstable") };
     assert_eq!((motion.node.0, format!("{:?}", motion.direction).as_str()), (6, "Uy"));
 }
+
+/// However many modes are asked for, the first are the same; from a quarter of the unknowns on the dense problem gives them.
+#[test]
+fn many_buckling_modes_begin_as_few_do() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/frames/gridshell_court_16x3.json");
+    let text = std::fs::read_to_string(path).unwrap();
+    let factors = |modes: u32| {
+        let mut case: Value = serde_json::from_str(&text).unwrap();
+        case["analysis"]["buckling_modes"] = modes.into();
+        let (model, analysis) = file::read(&case.to_string()).unwrap();
+        frame(&model, &analysis).unwrap().buckling_factors
+    };
+    let dense = factors(150);
+    assert_eq!(dense.len(), 150);
+    for modes in [1, 2, 6, 25, 34, 46, 60, 80] {
+        let found = factors(modes);
+        assert_eq!(found.len(), modes as usize);
+        for (k, (a, b)) in found.iter().zip(&dense).enumerate() {
+            assert!((a - b).abs() <= 1e-9 * b, "mode {k} of {modes}: {a} {b}");
+        }
+    }
+    let mut case: Value = serde_json::from_str(&text).unwrap();
+    case["analysis"]["buckling_modes"] = 100_000.into();
+    assert!(file::read(&case.to_string()).unwrap_err().to_string().contains("at most 1000"));
+}

@@ -94,6 +94,39 @@ fn holes_take_the_order_of_the_domain() {
     }
 }
 
+/// Three holes and all their orders, over a grid whose numbers say nothing of them: to renumber one vertex of each is not
+/// enough, since its neighbours have small numbers too.
+#[test]
+fn three_holes_take_the_order_of_the_domain() {
+    let number = |i: usize, j: usize| j * 8 + i;
+    let cells = (0..21).map(|k| (k % 7, k / 7)).filter(|&(i, j)| j != 1 || ![1, 3, 5].contains(&i));
+    let faces: Vec<Vec<usize>> = cells
+        .map(|(i, j)| vec![number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)])
+        .collect();
+    let vertices: Vec<[f64; 3]> =
+        (0..32).map(|k| [4.0 * f64::from(k % 8), 4.0 * f64::from(k / 8), 0.0]).collect();
+    let inline = TopologyParams {
+        initial: quadrille::geometry::params::InitialMesh::Inline {
+            vertices,
+            faces,
+            poles: Default::default(),
+        },
+        ..TopologyParams::default()
+    };
+    for order in [[6, 14, 22], [14, 22, 6], [22, 6, 14], [22, 14, 6], [14, 6, 22], [6, 22, 14]] {
+        let outer = "[[loop]]\nkind = 'polyline'\npoints_m = [[0, 0], [28, 0], [28, 12], [0, 12]]\n";
+        let hole = |x: &i32| format!("[[loop]]\nkind = 'circle'\ncenter_m = [{x}, 6]\nradius_m = 1.8\n");
+        let holes: String = order.iter().map(hole).collect();
+        let domain = domain(&format!("{outer}{holes}"), "kind = 'plane'");
+        let fitted = skeleton::initial(&inline, &domain, Path::new(".")).unwrap();
+        let mesh = InitialMesh::from_base(&fitted).unwrap().mesh;
+        for (darts, x) in mesh.loops()[1..].iter().zip(order) {
+            let middle = darts.iter().map(|&d| fitted.vertices[mesh.origin(d).index()][0]).sum::<f64>() / 4.0;
+            assert_eq!((darts.len(), middle), (4, f64::from(x)), "{order:?}");
+        }
+    }
+}
+
 #[test]
 fn meshes_that_do_not_fit_are_refused() {
     let square = domain(SQUARE, "kind = 'plane'");

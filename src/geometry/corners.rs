@@ -22,6 +22,15 @@ pub struct LoopCorners {
     pub sharp: bool,
 }
 
+impl LoopCorners {
+    /// The most corners one after another that no coarse vertex takes; 0 if none is taken.
+    pub fn longest_untaken(&self) -> usize {
+        let taken: Vec<usize> = (0..self.taken.len()).filter(|&k| self.taken[k].is_some()).collect();
+        let next = taken.iter().skip(1).copied().chain(taken.first().map(|k| k + self.taken.len()));
+        taken.iter().zip(next).map(|(k, next)| next - k - 1).max().unwrap_or(0)
+    }
+}
+
 /// Assigns the domain's corners to coarse boundary vertices, loop by loop.
 ///
 /// Where a domain has no corner at all, its outer loop has one that is not sharp: the mark, number 0.

@@ -61,7 +61,7 @@ pub fn shape(
     let corners = corners::assign(&coarse, domain);
     let stage = Stage { coarse: &coarse, domain, surface, corners: &corners };
 
-    let probe = stage.place(&vec![density::PROBE_PARTS; mesh.strips.len()], Folds::Leave)?;
+    let probe = stage.probe(params.max_faces)?;
     let lengths = density::strip_lengths(&coarse, &probe.dense, &probe.placed.positions);
     let densities = density::choose(&coarse, &lengths, params)?;
     let pattern = stage.relaxed(&densities, params, Folds::Leave)?;
@@ -121,6 +121,19 @@ impl Stage<'_> {
             relax::relax(placed, &sweeps, self.domain, self.surface, &params.relax);
         }
         Ok(site.into_pattern(self.coarse, self.corners, densities.target_length))
+    }
+
+    /// Every strip in the same number of parts, on which lengths are measured: in more than [`density::PROBE_PARTS`]
+    /// where otherwise corners that no coarse vertex took would find no place between two that did.
+    fn probe(&self, max_faces: usize) -> Result<Site, Rejection> {
+        let place = |parts| self.place(&vec![parts; self.coarse.mesh.strips.len()], Folds::Leave);
+        let untaken = self.corners.iter().map(LoopCorners::longest_untaken).max().unwrap_or(0);
+        // Beyond this the pattern itself would have too many faces.
+        let affordable = (max_faces / self.coarse.mesh.faces.len().max(1)).isqrt();
+        match (place(density::PROBE_PARTS), (untaken + 1).min(affordable) as u32) {
+            (Err(Rejection::CornerLost { .. }), more) if more > density::PROBE_PARTS => place(more),
+            (placed, _) => placed,
+        }
     }
 
     fn place(&self, parts: &[u32], folds: Folds) -> Result<Site, Rejection> {

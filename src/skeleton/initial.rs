@@ -293,15 +293,22 @@ fn match_loops(base: &BaseMesh, domain: &Domain) -> Result<Vec<Vec<u32>>, Initia
         .collect()
 }
 
-/// Renumbers so that the holes' smallest vertex numbers come in the order of the domain's holes, which is how loops are labelled.
+/// Renumbers so that the holes' smallest vertex numbers come in the order of the domain's holes, which is how loops are
+/// labelled: the numbers that holes have are dealt out anew, hole by hole.
 fn order_holes(base: &mut BaseMesh, loops: &[Vec<u32>]) {
-    let smallest: Vec<u32> = loops[1..].iter().filter_map(|l| l.iter().copied().min()).collect();
-    let mut sorted = smallest.clone();
-    sorted.sort_unstable();
-    if sorted == smallest {
+    let smallest = |l: &Vec<u32>| l.iter().copied().min();
+    if loops[1..].is_sorted_by_key(smallest) {
         return;
     }
-    let renamed: BTreeMap<u32, u32> = smallest.iter().copied().zip(sorted).collect();
+    let mut of_holes: Vec<u32> = Vec::new();
+    for hole in &loops[1..] {
+        let mut vertices: Vec<u32> = hole.iter().copied().filter(|v| !of_holes.contains(v)).collect();
+        vertices.sort_unstable();
+        of_holes.append(&mut vertices);
+    }
+    let mut numbers = of_holes.clone();
+    numbers.sort_unstable();
+    let renamed: BTreeMap<u32, u32> = of_holes.into_iter().zip(numbers).collect();
     let rename = |v: &mut u32| *v = renamed.get(v).copied().unwrap_or(*v);
     let old = base.vertices.clone();
     for (&from, &to) in &renamed {

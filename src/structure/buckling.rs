@@ -35,8 +35,9 @@ pub struct Search {
     pub tolerance: f64,
 }
 
-/// Below this many unknowns the dense problem is solved.
+/// Up to this many unknowns, or this many for each mode, the dense problem is solved.
 const DENSE: usize = 150;
+const DENSE_A_MODE: usize = 4;
 /// Of ν beside the largest |ν|, below which there is no factor but rounding.
 const NOTHING: f64 = 1e-10;
 const RESTARTS: usize = 40;
@@ -59,7 +60,12 @@ pub fn modes(solver: &mut Solver<'_>, axial: &[f64], search: Search) -> Result<V
         return Ok(Vec::new());
     }
     let free = solver.system().held().iter().filter(|h| !**h).count();
-    if free <= DENSE { dense(solver, axial, search.modes) } else { Lanczos::new(solver, axial, search).run() }
+    let search = Search { modes: search.modes.min(free), ..search };
+    if free <= DENSE.max(DENSE_A_MODE * search.modes) {
+        dense(solver, axial, search.modes)
+    } else {
+        Lanczos::new(solver, axial, search).run()
+    }
 }
 
 /// All modes of a small model: L⁻¹ (−Kg) L⁻ᵀ with K = L Lᵀ.
@@ -129,7 +135,8 @@ impl<'a, 'm> Lanczos<'a, 'm> {
     fn new(solver: &'a mut Solver<'m>, axial: &'a [f64], search: Search) -> Self {
         let n = solver.system().unknowns();
         let block = (search.modes + 1).clamp(2, 6);
-        let most = (8 * block).max(40);
+        // Restarting keeps the wanted ones; there must be room to go on beside them.
+        let most = (8 * block).max(40).max(2 * search.modes + 4 * block);
         Self {
             block,
             most,

@@ -28,7 +28,13 @@ pub enum FileError {
     /// An analysis that does not exist.
     #[error("analysis.order = {0}: must be 1 or 2")]
     Order(u64),
+    /// More buckling modes than anybody looks at, and than memory may hold.
+    #[error("analysis.buckling_modes = {0}: must be at most {MOST_MODES}")]
+    Modes(u32),
 }
+
+/// The most buckling modes of a model file.
+const MOST_MODES: u32 = 1000;
 
 #[derive(Deserialize)]
 struct File {
@@ -151,6 +157,9 @@ pub fn read(text: &str) -> Result<(FrameModel, FrameAnalysis), FileError> {
         2 => 2,
         other => return Err(FileError::Order(other)),
     };
+    if file.analysis.buckling_modes > MOST_MODES {
+        return Err(FileError::Modes(file.analysis.buckling_modes));
+    }
     let analysis = FrameAnalysis { order, buckling_modes: file.analysis.buckling_modes as usize };
     Ok((model(file)?, analysis))
 }
