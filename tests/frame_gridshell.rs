@@ -8,8 +8,10 @@ use frame_support::{court, dome};
 use quadrille::geometry::Pattern;
 use quadrille::structure::gridshell::{AnalysisError, Response, analyse, analyse_detailed};
 use quadrille::structure::params::{
-    Direction, HeightParams, LoadParams, RequirementParams, StructureParams, SupportParams, SupportPlace,
+    Direction, HeightParams, LoadParams, RequirementParams, SectionParams, StructureParams, SupportParams,
+    SupportPlace,
 };
+use quadrille::structure::section::Section;
 
 /// The paper's structure, as a config without a `[structure]` key gives it.
 fn paper() -> StructureParams {
@@ -155,6 +157,34 @@ fn excluded_zones_leave_members_out_of_utilisation_only() {
     assert_eq!(all.utilisation, all.utilisation_all);
     assert_eq!(some.utilisation_all, all.utilisation_all);
     assert!(some.utilisation < all.utilisation, "{} {}", some.utilisation, all.utilisation);
+}
+
+#[test]
+fn a_section_of_given_properties_is_the_box_that_has_them() {
+    let pattern = dome(6, 12.0, 1.5);
+    for shear_deformation in [false, true] {
+        let of_box = StructureParams { shear_deformation, ..at_height(0.2) };
+        let s = Section::of_params(&of_box.section, 0.2).unwrap();
+        let section = SectionParams::Properties {
+            width_m: 0.25,
+            area_m2: s.area,
+            iy_m4: s.iy,
+            iz_m4: s.iz,
+            j_m4: s.j,
+            wy_m3: s.wy,
+            wz_m3: s.wz,
+            asy_m2: s.asy,
+            asz_m2: s.asz,
+        };
+        let given = StructureParams { section, ..of_box.clone() };
+        let (a, b) = (analyse(&pattern, &of_box).unwrap(), analyse(&pattern, &given).unwrap());
+        assert_eq!(
+            (a.mass_kg, a.deflection_m, a.utilisation, a.buckling_factor),
+            (b.mass_kg, b.deflection_m, b.utilisation, b.buckling_factor)
+        );
+        let sized = StructureParams { height: sized().height, ..given };
+        assert!(sized.validate().iter().any(|(key, _)| key == "height"), "{:?}", sized.validate());
+    }
 }
 
 #[test]

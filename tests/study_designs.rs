@@ -161,3 +161,32 @@ fn between_several_holes_panels_are_not_crowded() {
     let shortest = design.fabrication.edge_min / design.pattern.target_length;
     assert!(shortest > 0.15, "the shortest edge is {shortest} of the target length");
 }
+
+/// Three faces around a hole that is a 16-gon: fifteen of its corners have no coarse vertex, more than a probe of four parts
+/// a strip has room for. They go to dense vertices of the pattern, one each (GEOMETRY §0.2).
+#[test]
+fn corners_nobody_took_find_vertices_however_many() {
+    let corner = |k: u32| {
+        let angle = std::f64::consts::TAU * f64::from(k) / 16.0;
+        format!("[{:.3}, {:.3}]", 15.0 + 4.0 * angle.cos(), 15.0 + 4.0 * angle.sin())
+    };
+    let polygon: Vec<String> = (0..16).map(corner).collect();
+    let text = format!(
+        "version = 1\n[run]\nname = 'corners'\n[[domain.loop]]\nkind = 'polyline'\npoints_m = [[0, 0], [30, 0], [30, 30], [0, 30]]\n\
+         [[domain.loop]]\nkind = 'polyline'\npoints_m = [{}]\n[surface]\nkind = 'plane'\n\
+         [topology]\nrules = 'plain'\npinched = 'allow'\n[pattern]\npanels = 2000\n",
+        polygon.join(", ")
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("corners.toml");
+    std::fs::write(&file, text).unwrap();
+    let study = Study::new(&config::load(&file, &[]).unwrap(), folder.path()).unwrap();
+    let deletions = "DPPDDTDDPDTDTDDDDDTDDPDPTTDDDPTTDDTDDTTDPDTTTTDDTDPTDTDDPTPD".parse().unwrap();
+    let topology = study.topology(&deletions);
+    assert_eq!(topology.faces.len(), 3);
+    let pattern = study.develop(topology, Effort::Pattern).unwrap().pattern;
+    let mut taken = pattern.corners.clone();
+    taken.sort_unstable();
+    taken.dedup();
+    assert_eq!(taken.len(), 20, "every corner has a vertex of its own");
+}

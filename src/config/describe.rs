@@ -177,6 +177,9 @@ fn describe_structure(structure: &StructureParams) -> Vec<String> {
         }
         SectionParams::Round {} => "solid round bar".into(),
         SectionParams::Tube { thickness_m } => format!("round tube, wall {} mm", millimetres(thickness_m)),
+        SectionParams::Properties { area_m2, iy_m4, .. } => {
+            format!("section of given properties, A {} cm², Iy {} cm⁴", 1e4 * area_m2, 1e8 * iy_m4)
+        }
     };
     let mut lines = vec![format!("structure: rigid frame, {order} order; {section}, {height}")];
     lines.extend(structure.supports.iter().map(describe_support));

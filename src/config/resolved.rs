@@ -44,7 +44,7 @@ fn section_width(structure: &StructureParams) -> f64 {
         HeightParams::Sized { max_m, .. } => max_m,
     };
     match structure.section {
-        SectionParams::Box { width_m, .. } => width_m,
+        SectionParams::Box { width_m, .. } | SectionParams::Properties { width_m, .. } => width_m,
         SectionParams::Round {} | SectionParams::Tube { .. } => height,
     }
 }

@@ -200,6 +200,11 @@ impl Rules<'_> {
                     let message = format!("found {step_m} with max_m = {max_m}; allowed: at most max_m");
                     self.refuse("structure.height.step_m", message);
                 }
+                if let SectionParams::Properties { .. } = structure.section {
+                    let message =
+                        "found a height to be sized with a section of given properties; allowed: fixed_m";
+                    self.refuse("structure.height", message.to_owned());
+                }
                 (min_m, "structure.height.min_m")
             }
         };

@@ -151,6 +151,59 @@ pub enum SectionParams {
         #[schemars(extend("exclusiveMinimum" = 0))]
         thickness_m: f64,
     },
+    /// Any section, by its properties about its own axes: y across, z along the surface normal. Its height is fixed.
+    Properties {
+        /// Width in plan, in metres: what the shortest buildable member is judged by.
+        #[schemars(extend("exclusiveMinimum" = 0))]
+        width_m: f64,
+        /// Area A, in m².
+        #[schemars(extend("exclusiveMinimum" = 0))]
+        area_m2: f64,
+        /// Second moment of area about y (bending out of the surface), in m⁴.
+        #[schemars(extend("exclusiveMinimum" = 0))]
+        iy_m4: f64,
+        /// Second moment of area about z (bending in the surface), in m⁴.
+        #[schemars(extend("exclusiveMinimum" = 0))]
+        iz_m4: f64,
+        /// Torsion constant J, in m⁴.
+        #[schemars(extend("exclusiveMinimum" = 0))]
+        j_m4: f64,
+        /// Elastic modulus about y, in m³.
+        #[schemars(extend("exclusiveMinimum" = 0))]
+        wy_m3: f64,
+        /// Elastic modulus about z, in m³.
+        #[schemars(extend("exclusiveMinimum" = 0))]
+        wz_m3: f64,
+        /// Shear area along y, in m², for `shear_deformation`; 0 = rigid in shear.
+        #[serde(default)]
+        #[schemars(extend("minimum" = 0))]
+        asy_m2: f64,
+        /// Shear area along z, in m²; 0 = rigid in shear.
+        #[serde(default)]
+        #[schemars(extend("minimum" = 0))]
+        asz_m2: f64,
+    },
+}
+
+impl SectionParams {
+    /// The number that was given and is not greater than 0, if any, by its key.
+    pub(crate) fn not_positive(&self) -> Option<(&'static str, f64)> {
+        let given: Vec<(&'static str, f64)> = match *self {
+            Self::Box { width_m, thickness_m } => vec![("width_m", width_m), ("thickness_m", thickness_m)],
+            Self::Tube { thickness_m } => vec![("thickness_m", thickness_m)],
+            Self::Round {} => vec![],
+            Self::Properties { width_m, area_m2, iy_m4, iz_m4, j_m4, wy_m3, wz_m3, .. } => vec![
+                ("width_m", width_m),
+                ("area_m2", area_m2),
+                ("iy_m4", iy_m4),
+                ("iz_m4", iz_m4),
+                ("j_m4", j_m4),
+                ("wy_m3", wy_m3),
+                ("wz_m3", wz_m3),
+            ],
+        };
+        given.into_iter().find(|(_, value)| !(*value > 0.0 && value.is_finite()))
+    }
 }
 
 impl Default for SectionParams {

@@ -159,6 +159,17 @@ impl Section {
             }
             SectionParams::Round {} => Self::round(height),
             SectionParams::Tube { thickness_m } => Self::tube(height, thickness_m),
+            SectionParams::Properties {
+                width_m: _,
+                area_m2: area,
+                iy_m4: iy,
+                iz_m4: iz,
+                j_m4: j,
+                wy_m3: wy,
+                wz_m3: wz,
+                asy_m2: asy,
+                asz_m2: asz,
+            } => Ok(Self { area, iy, iz, j, wy, wz, asy, asz, shear: None }),
         }
     }
 

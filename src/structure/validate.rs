@@ -74,18 +74,20 @@ impl StructureParams {
                 ("height.min_m", min_m)
             }
         };
+        if let Some((key, value)) = self.section.not_positive() {
+            positive(problems, &format!("section.{key}"), value);
+        }
         match self.section {
             SectionParams::Box { width_m, thickness_m } => {
-                positive(problems, "section.width_m", width_m);
-                positive(problems, "section.thickness_m", thickness_m);
                 wall(problems, "section.width_m", width_m, thickness_m);
                 wall(problems, key, least, thickness_m);
             }
-            SectionParams::Tube { thickness_m } => {
-                positive(problems, "section.thickness_m", thickness_m);
-                wall(problems, key, least, thickness_m);
+            SectionParams::Tube { thickness_m } => wall(problems, key, least, thickness_m),
+            SectionParams::Properties { .. } if matches!(self.height, HeightParams::Sized { .. }) => {
+                let message = "a section of given properties cannot be sized: give fixed_m";
+                problems.push(("height".into(), message.into()));
             }
-            SectionParams::Round {} => {}
+            SectionParams::Round {} | SectionParams::Properties { .. } => {}
         }
         // What the checks above have no words for: properties that overflow or vanish.
         if problems.len() == before
