@@ -26,6 +26,7 @@ mod help;
 mod init;
 mod man;
 mod neighbours;
+mod obstacles;
 mod progress;
 mod report;
 mod run;

@@ -2,7 +2,7 @@
 
 use super::config_args::ConfigArgs;
 use super::progress::{Display, duration};
-use super::{CliError, Console, exit};
+use super::{CliError, Console, exit, obstacles};
 use quadrille::config::{Config, to_toml};
 use quadrille::output::folder::{Folder, FolderError, Opening, REPORT};
 use quadrille::output::report;
@@ -221,7 +221,7 @@ fn summarise(study: &Study, outcome: &Outcome, folder: &Folder, clock: Instant, 
         }
     }
     if outcome.front.is_empty() {
-        console.always("no feasible design was found; history.csv says why each one failed");
+        console.always(&obstacles::sentence(&outcome.evaluated));
     }
     let folder = folder.path().display();
     console.note(&format!(
