@@ -2,11 +2,15 @@
 
 use super::folder_args::{find, open, same_code};
 use super::{CliError, Console, exit};
+use quadrille::mesh::Code;
 use quadrille::objectives::METRICS;
+use quadrille::output::consistency::{Contradiction, contradictions};
 use quadrille::output::designs::id;
-use quadrille::search::EvaluatedRow;
-use quadrille::study::{Effort, Study};
+use quadrille::output::load::Loaded;
+use quadrille::search::{EvaluatedRow, Evaluation, Problem, evaluate};
+use quadrille::study::Study;
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -15,8 +19,9 @@ const TOLERANCE: f64 = 1e-6;
 
 /// Evaluate designs of a results folder again from their strings and compare every number.
 ///
-/// Without --design: the front. Says for each design whether all numbers are identical, equal to 1e-6 relative (as
-/// another processor may give), or different; exit code 1 if any is different.
+/// Without --design: the front, and whether pareto.csv says what history.csv says and lists all non-dominated designs.
+/// Names every number that differs by more than 1e-6 relative (as much as another processor may make), and every cell in
+/// which the two files differ; exit code 1 if there is any.
 #[derive(clap::Args)]
 pub struct Args {
     /// The results folder of a run.
@@ -30,44 +35,87 @@ pub struct Args {
 /// Evaluates and compares.
 pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     let (loaded, study) = open(&args.folder)?;
+    let mut told =
+        contradictions(&args.folder, &loaded).map_err(|error| CliError::Input(error.to_string()))?;
     let rows: Vec<&EvaluatedRow> = match &args.design {
-        Some(design) => vec![find(&loaded, design)?],
-        None => loaded.front.iter().map(|&row| &loaded.evaluated[row]).collect(),
+        Some(design) => {
+            let row = find(&loaded, design)?;
+            told.retain(|contradiction| contradiction.code.is_none_or(|code| code == row.code));
+            vec![row]
+        }
+        None => front(&loaded, &told),
     };
     let found: Vec<Vec<String>> = rows.par_iter().map(|row| differences(&study, row)).collect();
-    let mut different = 0;
+    for contradiction in &told {
+        outln!("{}", contradiction.message);
+    }
+    let mut verified = 0;
     for (row, differences) in rows.iter().zip(&found) {
-        different += usize::from(!differences.is_empty());
         for difference in differences {
             outln!("{}: {difference}", id(row.code));
         }
-        if differences.is_empty() {
+        if differences.is_empty() && !told.iter().any(|t| t.code == Some(row.code)) {
+            verified += 1;
             console.detail(&format!("{}: verified", id(row.code)));
         }
     }
-    outln!("{} of {} designs verified", rows.len() - different, rows.len());
-    Ok(ExitCode::from(if different == 0 { exit::DONE } else { exit::FAILED }))
+    match rows.len() {
+        0 => outln!("no feasible design to verify: the front is empty"),
+        all => outln!("{verified} of {all} designs verified"),
+    }
+    Ok(ExitCode::from(if told.is_empty() && verified == rows.len() { exit::DONE } else { exit::FAILED }))
 }
 
-/// Every number that is not what the file says.
+/// The rows of pareto.csv, and all others of which it says something wrong: those it lacks.
+fn front<'a>(loaded: &'a Loaded, told: &[Contradiction]) -> Vec<&'a EvaluatedRow> {
+    let named: BTreeSet<Code> = told.iter().filter_map(|contradiction| contradiction.code).collect();
+    let listed: BTreeSet<usize> = loaded.front.iter().copied().collect();
+    let others = loaded.evaluated.iter().enumerate();
+    let others = others.filter(|(place, row)| named.contains(&row.code) && !listed.contains(place));
+    let front = listed.iter().map(|&place| &loaded.evaluated[place]);
+    front.chain(others.map(|(_, row)| row)).collect()
+}
+
+/// Everything that is not what the file says.
 fn differences(study: &Study, row: &EvaluatedRow) -> Vec<String> {
     if !same_code(study, &row.tokens, row.code) {
         return vec![format!("string {} no longer has code {}", row.tokens, row.code)];
     }
-    let evaluation = study.evaluate_topology(study.topology(&row.tokens), Effort::Promising);
-    let mut differences = Vec::new();
-    if evaluation.violation.stage != row.violation.stage {
-        let (now, then) = (evaluation.violation.stage, row.violation.stage);
-        differences.push(format!("violation_stage: file {then}, now {now}"));
-    }
-    for (index, metric) in METRICS.iter().enumerate() {
-        let (then, now) = (row.metrics.get(index), evaluation.metrics.get(index).copied().flatten());
-        if !agree(then, now) {
-            let shown = |value: Option<f64>| value.map_or("none".into(), |value| value.to_string());
-            differences.push(format!("{}: file {}, now {}", metric.column, shown(then), shown(now)));
-        }
-    }
+    let now = evaluate(study, &row.tokens).sanitised(study.objectives.len());
+    let mut differences = words(row, &now, &study.identify(&row.tokens).expressed.to_string());
+    let measure = ("violation", Some(row.violation.measure), Some(now.violation.measure));
+    let metrics = METRICS
+        .iter()
+        .enumerate()
+        .map(|(i, metric)| (metric.column, row.metrics.get(i), now.metrics.get(i).copied().flatten()));
+    let numbers = std::iter::once(measure).chain(metrics).filter(|&(_, then, now)| !agree(then, now));
+    differences.extend(numbers.map(|(column, then, now)| {
+        let shown = |value: Option<f64>| value.map_or("none".into(), |value| value.to_string());
+        format!("{column}: file {}, now {}", shown(then), shown(now))
+    }));
     differences
+}
+
+/// What is no number of its own.
+fn words(row: &EvaluatedRow, now: &Evaluation, expressed: &str) -> Vec<String> {
+    let (then, reason) = (row.violation, row.reason.to_string());
+    let cells = [
+        ("expressed", row.expressed.to_string(), expressed.to_owned()),
+        ("feasible", row.is_feasible().to_string(), now.violation.is_feasible().to_string()),
+        ("violation_stage", then.stage.to_string(), now.violation.stage.to_string()),
+        ("reason", reason, now.reason.clone()),
+    ];
+    let different = cells.into_iter().filter(|(_, then, now)| !same_words(then, now));
+    different.map(|(column, then, now)| format!("{column}: file \"{then}\", now \"{now}\"")).collect()
+}
+
+/// Equal word by word; a number in them may round to the next of its four decimals.
+fn same_words(then: &str, now: &str) -> bool {
+    let number = |word: &str| word.trim_matches(['(', ')', ',', ';', ':']).parse::<f64>().ok();
+    let near = |a: f64, b: f64| (a - b).abs() <= 1.01e-4 + TOLERANCE * a.abs().max(b.abs());
+    let same =
+        |(a, b): (&str, &str)| a == b || matches!((number(a), number(b)), (Some(a), Some(b)) if near(a, b));
+    then.split(' ').count() == now.split(' ').count() && then.split(' ').zip(now.split(' ')).all(same)
 }
 
 fn agree(then: Option<f64>, now: Option<f64>) -> bool {

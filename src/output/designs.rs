@@ -44,7 +44,13 @@ impl Columns {
         self.metrics.iter().enumerate().filter(|(_, name)| !self.objectives.contains(name))
     }
 
-    fn header(&self) -> Vec<String> {
+    /// The header of `history.csv`.
+    pub(super) fn history_header(&self) -> Vec<String> {
+        self.header().into_iter().chain(LAST.map(str::to_owned)).collect()
+    }
+
+    /// The header of `pareto.csv`.
+    pub(super) fn header(&self) -> Vec<String> {
         let first = FIRST.iter().map(|&name| name.to_owned());
         first
             .chain(self.objectives.iter().cloned())
@@ -52,7 +58,8 @@ impl Columns {
             .collect()
     }
 
-    fn cells(&self, row: &EvaluatedRow) -> Vec<Cell> {
+    /// A row of `pareto.csv`.
+    pub(super) fn cells(&self, row: &EvaluatedRow) -> Vec<Cell> {
         let mut cells: Vec<Cell> = vec![
             id(row.code).into(),
             row.tokens.to_string().into(),
@@ -63,6 +70,15 @@ impl Columns {
         ];
         cells.extend((0..self.objectives.len()).map(|i| self.objective(row, i).into()));
         cells.extend(self.others().map(|(metric, _)| Cell::from(row.metrics.get(metric))));
+        cells
+    }
+
+    /// A row of `history.csv`.
+    pub(super) fn history_cells(&self, row: &EvaluatedRow) -> Vec<Cell> {
+        let mut cells = self.cells(row);
+        cells.push(u64::from(row.violation.stage).into());
+        cells.push(row.violation.measure.into());
+        cells.push(row.reason.to_string().into());
         cells
     }
 
@@ -98,15 +114,7 @@ pub fn write_history(
     rows: &[EvaluatedRow],
     columns: &Columns,
 ) -> io::Result<()> {
-    let header: Vec<String> = columns.header().into_iter().chain(LAST.map(str::to_owned)).collect();
-    let cells = |row: &EvaluatedRow| {
-        let mut cells = columns.cells(row);
-        cells.push(u64::from(row.violation.stage).into());
-        cells.push(row.violation.measure.into());
-        cells.push(row.reason.to_string().into());
-        cells
-    };
-    dialect.write(out, &header, rows.iter().map(cells))
+    dialect.write(out, &columns.history_header(), rows.iter().map(|row| columns.history_cells(row)))
 }
 
 #[cfg(test)]

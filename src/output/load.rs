@@ -112,10 +112,9 @@ impl Sheet {
         take: impl Fn(Record<'_>) -> Result<T, LoadError>,
     ) -> Result<Vec<T>, LoadError> {
         let path = folder.join(name);
-        let file = File::open(&path).map_err(|source| LoadError::Read { path: path.clone(), source })?;
         let wrong = |error: csv::Error| LoadError::Format { path: path.clone(), message: error.to_string() };
-        let mut reader = csv::Reader::from_reader(BufReader::new(file));
-        let header = reader.headers().map_err(wrong)?.clone();
+        let mut reader = Self::open(&path)?;
+        let header = reader.headers().map_err(wrong)?;
         let columns = header.iter().enumerate().map(|(i, name)| (name.to_owned(), i)).collect();
         let sheet = Self { path: path.clone(), columns };
         let mut cells = csv::StringRecord::new();
@@ -124,6 +123,18 @@ impl Sheet {
             taken.push(take(Record { sheet: &sheet, cells: &cells, line: taken.len() + 2 })?);
         }
         Ok(taken)
+    }
+
+    /// The names of a file's columns, in order.
+    pub(super) fn header(path: &Path) -> Result<Vec<String>, LoadError> {
+        let wrong =
+            |error: csv::Error| LoadError::Format { path: path.to_path_buf(), message: error.to_string() };
+        Ok(Self::open(path)?.headers().map_err(wrong)?.iter().map(str::to_owned).collect())
+    }
+
+    fn open(path: &Path) -> Result<csv::Reader<BufReader<File>>, LoadError> {
+        let file = File::open(path).map_err(|source| LoadError::Read { path: path.to_path_buf(), source })?;
+        Ok(csv::Reader::from_reader(BufReader::new(file)))
     }
 }
 
@@ -137,11 +148,16 @@ pub(super) struct Record<'a> {
 }
 
 impl<'a> Record<'a> {
-    fn wrong(&self, message: String) -> LoadError {
+    /// Its number, that of the header being 1.
+    pub(super) fn line(&self) -> usize {
+        self.line
+    }
+
+    pub(super) fn wrong(&self, message: String) -> LoadError {
         LoadError::Format { path: self.sheet.path.clone(), message: format!("line {}: {message}", self.line) }
     }
 
-    fn text(&self, column: &str) -> Result<&'a str, LoadError> {
+    pub(super) fn text(&self, column: &str) -> Result<&'a str, LoadError> {
         let missing = || self.wrong(format!("column {column} is missing"));
         let index = self.sheet.columns.get(column).ok_or_else(missing)?;
         self.cells.get(*index).ok_or_else(missing)
@@ -165,7 +181,8 @@ impl<'a> Record<'a> {
     }
 }
 
-fn row(record: Record<'_>, columns: &Columns) -> Result<EvaluatedRow, LoadError> {
+/// The evaluation that a line of `history.csv` or `pareto.csv` tells.
+pub(super) fn row(record: Record<'_>, columns: &Columns) -> Result<EvaluatedRow, LoadError> {
     let [_, string, expressed, code, generation, _] = FIRST;
     let [stage, measure, reason] = LAST;
     let digits = record.text(code)?;

@@ -4,6 +4,7 @@ pub mod analysed;
 pub mod atomic;
 pub mod coarse;
 pub mod compas;
+pub mod consistency;
 pub mod designs;
 pub mod explanation;
 pub mod explorer;

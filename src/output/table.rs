@@ -55,7 +55,8 @@ impl From<u64> for Cell {
 }
 
 impl Cell {
-    fn text(&self) -> String {
+    /// As in a canonical file, before quoting.
+    pub(super) fn text(&self) -> String {
         match self {
             Self::Text(text) => text.clone(),
             Self::Number(number) => shortest(*number).unwrap_or_default(),
