@@ -19,7 +19,7 @@ pub struct StructureParams {
     /// The height of the section: fixed, or sized to the requirements.
     #[serde(default)]
     pub height: HeightParams,
-    /// Elements per member: a number, or `"auto"` = ceil(L / (1.5 target length)).
+    /// Elements per member: a number, or `"auto"` = ceil(L / (1.5 target length)). Supports stay at the nodes of the pattern.
     #[serde(default)]
     pub elements_per_member: ElementsPerMember,
     /// Timoshenko shear deformation.
