@@ -6,7 +6,7 @@ use super::deviations::Deviations;
 use super::{CliError, Console};
 use quadrille::grammar::Tokens;
 use quadrille::output::atomic;
-use quadrille::output::folder::EVALUATION;
+use quadrille::output::folder::{CHECKPOINT, EVALUATION, JOURNAL, MANIFEST};
 use quadrille::output::results::Developed;
 use quadrille::study::Study;
 use std::path::{Path, PathBuf};
@@ -22,9 +22,9 @@ pub struct Args {
     #[command(flatten)]
     config: ConfigArgs,
     /// A string, such as ATTA; may be given several times.
-    #[arg(long, value_name = "S", required_unless_present = "strings")]
+    #[arg(long, value_name = "S")]
     string: Vec<String>,
-    /// A CSV file with a column `string` and, if wanted, a column `name`.
+    /// A CSV file (fields separated by commas or semicolons) with a column `string` and, if wanted, a column `name`.
     #[arg(long, value_name = "FILE.csv")]
     strings: Option<PathBuf>,
     /// Write tables, meshes and pictures into this folder.
@@ -41,6 +41,11 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     }
     if let Some(file) = &args.strings {
         named.extend(read_strings(file)?);
+    } else if named.is_empty() {
+        return Err(CliError::Input("no string to evaluate; give --string S or --strings FILE.csv".into()));
+    }
+    if let Some(folder) = &args.out {
+        refuse_results(folder)?;
     }
     let study = args.config.study(&config)?;
     let comparison = Comparison::of(&study, named);
@@ -69,12 +74,17 @@ fn read_strings(file: &Path) -> Result<Vec<(String, Tokens)>, CliError> {
     let wrong = |message: String| CliError::Input(format!("{}: {message}", file.display()));
     let bytes = std::fs::read(file).map_err(CliError::read(file))?;
     let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(&bytes);
-    let mut reader = csv::ReaderBuilder::new().flexible(true).from_reader(bytes);
+    // As spreadsheets of countries with a decimal comma write it.
+    let first_line = bytes.split(|&byte| byte == b'\n').next().unwrap_or_default();
+    let delimiter = if first_line.contains(&b';') && !first_line.contains(&b',') { b';' } else { b',' };
+    let mut reader = csv::ReaderBuilder::new().delimiter(delimiter).flexible(true).from_reader(bytes);
     let header = reader.headers().map_err(|error| wrong(error.to_string()))?.clone();
     let column = |name: &str| header.iter().position(|heading| heading.trim() == name);
-    let strings = column("string").ok_or_else(|| {
-        let found: Vec<&str> = header.iter().collect();
-        wrong(format!("line 1: no column `string`; found {}", found.join(", ")))
+    let strings = column("string").ok_or_else(|| match header.iter().collect::<Vec<_>>().join(", ") {
+        found if found.is_empty() => {
+            wrong("the file is empty; its first line must name a column `string`".into())
+        }
+        found => wrong(format!("line 1: no column `string`; found {found}")),
     })?;
     let mut named = Vec::new();
     for record in reader.records() {
@@ -85,7 +95,21 @@ fn read_strings(file: &Path) -> Result<Vec<(String, Tokens)>, CliError> {
         let tokens = parse(&format!("{}:{line}:", file.display()), text)?;
         named.push((name.unwrap_or(text).to_owned(), tokens));
     }
-    Ok(named)
+    match named.is_empty() {
+        true => Err(wrong("no strings below the header".into())),
+        false => Ok(named),
+    }
+}
+
+/// A run's folder holds what the run found, and nothing else.
+fn refuse_results(folder: &Path) -> Result<(), CliError> {
+    match [MANIFEST, CHECKPOINT, JOURNAL].iter().find(|name| folder.join(name).exists()) {
+        None => Ok(()),
+        Some(name) => Err(CliError::Input(format!(
+            "--out {}: the results folder of a run (it has {name}); give another folder",
+            folder.display()
+        ))),
+    }
 }
 
 fn write(

@@ -1,5 +1,6 @@
 //! `quadrille init`: a commented config to start from.
 
+use super::quote::quote;
 use super::{CliError, Console};
 use std::fs::File;
 use std::io::Write;
@@ -23,13 +24,23 @@ pub struct Args {
 /// Writes the starter.
 pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     let name = args.name.strip_suffix(".toml").unwrap_or(&args.name);
+    if name.is_empty() || name.starts_with('-') || name.ends_with(['/', '\\']) {
+        return Err(CliError::Input(format!(
+            "found the name \"{}\"; allowed: the name of a file",
+            args.name
+        )));
+    }
     let path = PathBuf::from(format!("{name}.toml"));
+    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()) {
+        return Err(CliError::Input(format!("there is no folder {}; make it first", folder.display())));
+    }
     if path.exists() {
         return Err(CliError::Input(format!("{} exists; choose another name", path.display())));
     }
     let write = |path: &PathBuf| File::create_new(path)?.write_all(STARTER.as_bytes());
     write(&path).map_err(CliError::write(&path))?;
     outln!("{}", path.display());
-    console.note(&format!("next: quadrille check {0}, then quadrille run {0}", path.display()));
+    console
+        .note(&format!("next: quadrille check {0}, then quadrille run {0}", quote(&path.to_string_lossy())));
     Ok(ExitCode::SUCCESS)
 }

@@ -28,6 +28,7 @@ mod man;
 mod neighbours;
 mod obstacles;
 mod progress;
+mod quote;
 mod report;
 mod run;
 mod skeleton;

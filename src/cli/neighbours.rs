@@ -9,7 +9,7 @@ use quadrille::output::atomic;
 use quadrille::output::number::significant;
 use quadrille::search::operators::Reach;
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Evaluate every design one strip added or deleted away, and compare.
@@ -25,8 +25,8 @@ pub struct Args {
     #[arg(long, value_name = "S")]
     string: String,
     /// Most edges of a polyedge along which a strip is added.
-    #[arg(long, value_name = "N", default_value_t = 4)]
-    edges: usize,
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u64).range(1..))]
+    edges: u64,
     /// Add strips that end in poles too.
     #[arg(long)]
     poles: bool,
@@ -42,11 +42,14 @@ const LISTED: usize = 5;
 pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     let config = args.config.load(&[])?;
     let tokens = parse("--string", &args.string)?;
+    if let Some(path) = &args.out {
+        writable(path)?;
+    }
     let study = args.config.study(&config)?;
     let expressed = study.decode(&tokens).expressed;
     let mut seen = BTreeSet::from([study.topology(&tokens).code]);
     let mut named = vec![(expressed.to_string(), expressed.clone())];
-    for neighbour in study.neighbours(&expressed, Reach { edges: args.edges, poles: args.poles }) {
+    for neighbour in study.neighbours(&expressed, Reach { edges: args.edges as usize, poles: args.poles }) {
         if seen.insert(study.topology(&neighbour).code) {
             named.push((neighbour.to_string(), neighbour));
         }
@@ -55,8 +58,12 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     let comparison = Comparison::of(&study, named);
     let count = comparison.entries.len() - 1;
     let feasible = comparison.entries[1..].iter().filter(|e| e.evaluation.violation.is_feasible()).count();
+    let meant = match tokens == expressed {
+        true => String::new(),
+        false => format!(", expressed \"{expressed}\""),
+    };
     outln!(
-        "\"{expressed}\" ({}): {count} neighbours, {feasible} of them feasible",
+        "\"{tokens}\"{meant} ({}): {count} neighbours, {feasible} of them feasible",
         comparison.entries[0].id()
     );
     if !comparison.entries[0].evaluation.violation.is_feasible() {
@@ -73,6 +80,20 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
         atomic::write(path, &comparison.table().to_csv()).map_err(CliError::write(path))?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Whether the folder of a file to be written is there, before anything is evaluated for it.
+fn writable(path: &Path) -> Result<(), CliError> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    match (folder.is_dir(), path.is_dir()) {
+        (false, _) => Err(CliError::Input(format!(
+            "--out {}: there is no folder {}; make it first",
+            path.display(),
+            folder.display()
+        ))),
+        (_, true) => Err(CliError::Input(format!("--out {}: a folder; allowed: a file", path.display()))),
+        _ => Ok(()),
+    }
 }
 
 fn verdict(won: usize, objectives: usize) -> String {

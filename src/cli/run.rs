@@ -2,6 +2,7 @@
 
 use super::config_args::ConfigArgs;
 use super::progress::{Display, duration};
+use super::quote::quote;
 use super::{CliError, Console, exit, obstacles};
 use quadrille::config::{Config, to_toml};
 use quadrille::output::folder::{Folder, FolderError, Opening, REPORT};
@@ -11,6 +12,7 @@ use quadrille::output::table::Dialect;
 use quadrille::random;
 use quadrille::search::{self, Ended, Outcome, Settings, StopFlag, Store, ThreadServer};
 use quadrille::study::Study;
+use std::io::ErrorKind;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::{Instant, SystemTime};
@@ -110,18 +112,19 @@ impl Args {
             (_, true) => Opening::Overwrite,
             _ => Opening::New,
         };
+        if path.is_file() {
+            return Err(CliError::Input(format!("--out {}: a file; allowed: a folder", path.display())));
+        }
         Folder::open(&path, opening).map_err(|error| match error {
-            FolderError::Io { .. } => CliError::Failed(error.to_string()),
+            FolderError::Io { ref source, .. } if source.kind() == ErrorKind::StorageFull => {
+                CliError::Failed(error.to_string())
+            }
             refused => CliError::Input(refused.to_string()),
         })
     }
 
     /// What a user types to go on.
     fn resume_command(&self, folder: &Folder) -> String {
-        let quote = |text: &str| match text.chars().all(|c| c.is_alphanumeric() || "-_./=".contains(c)) {
-            true => text.to_owned(),
-            false => format!("'{}'", text.replace('\'', "'\\''")),
-        };
         let mut words = vec!["quadrille run".to_owned(), quote(&self.config.config.to_string_lossy())];
         words.extend(self.config.set.iter().chain(&self.sets()).map(|set| format!("--set {}", quote(set))));
         if self.out.is_some() {

@@ -173,7 +173,8 @@ impl Rules<'_> {
         }
         for (i, requirement) in structure.requirements.iter().enumerate() {
             let key = KeyPath::of("structure.requirement").index(i);
-            self.requirement(requirement, &structure.combinations, &key);
+            let sized = matches!(structure.height, HeightParams::Sized { .. });
+            self.requirement(requirement, &structure.combinations, sized, &key);
         }
     }
 
@@ -246,25 +247,25 @@ impl Rules<'_> {
         &mut self,
         requirement: &RequirementParams,
         combinations: &BTreeMap<String, BTreeMap<String, f64>>,
+        sized: bool,
         key: &KeyPath,
     ) {
         let known: Vec<&str> = combinations.keys().map(String::as_str).collect();
         self.known(&key.key("combination"), "combination", &requirement.combination, &known);
+        // What a greater height does not bring nearer cannot be sized for.
         let lower = requirement.quantity == Quantity::BucklingFactor;
         let wanted = if lower { "min" } else { "max" };
         match (requirement.max, requirement.min) {
-            (Some(_), None) if !lower => {}
-            (None, Some(_)) if lower => {}
             (Some(_), Some(_)) => {
                 self.refuse(key.key("min"), "found beside `max`; allowed: one limit a requirement")
             }
-            (Some(_), None) => {
-                self.refuse(key.key("max"), "found an upper limit of a buckling factor; allowed: `min`")
-            }
-            (None, Some(_)) => {
-                self.refuse(key.key("min"), "found a lower limit; allowed for this quantity: `max`")
+            (Some(_), None) if sized && lower => self
+                .refuse(key.key("max"), "found an upper limit beside a height to be sized; allowed: `min`"),
+            (None, Some(_)) if sized && !lower => {
+                self.refuse(key.key("min"), "found a lower limit beside a height to be sized; allowed: `max`")
             }
             (None, None) => self.refuse(key.key(wanted), "missing; allowed: a number > 0"),
+            _ => {}
         }
     }
 

@@ -1,0 +1,95 @@
+//! Arguments that cannot be meant: exit 2, what was found, what is allowed; and odd ones that can.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn ci() -> String {
+    let path: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("configs/ci.toml");
+    path.to_str().unwrap().to_owned()
+}
+
+fn quadrille(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_quadrille")).args(arguments).current_dir(folder).output().unwrap()
+}
+
+/// Refused with exit 2 and these words.
+fn refused(folder: &Path, arguments: &[&str], words: &str) {
+    let output = quadrille(folder, arguments);
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+    assert!(message.contains(words), "{arguments:?}: {message}");
+    assert!(!message.contains(".quadrille-"), "{arguments:?}: {message}");
+}
+
+#[test]
+fn places_that_cannot_be_written_are_refused_before_anything_is_evaluated() {
+    let temporary = tempfile::tempdir().unwrap();
+    let folder = temporary.path();
+    let ci = ci();
+    fs::write(folder.join("afile"), "").unwrap();
+    refused(folder, &["run", &ci, "--out", "afile"], "--out afile: a file; allowed: a folder");
+    refused(folder, &["run", &ci, "--out", "afile/x"], "afile/x");
+    refused(folder, &["init", "a/b"], "there is no folder a");
+    refused(folder, &["init", ""], "found the name \"\"");
+    refused(folder, &["init", "--", "-x"], "found the name \"-x\"");
+    let neighbours = ["neighbours", &ci, "--string", ""];
+    let with = |more: [&'static str; 2]| [neighbours.as_slice(), more.as_slice()].concat();
+    refused(folder, &with(["--out", "nowhere/n.csv"]), "there is no folder nowhere");
+    refused(folder, &with(["--edges", "0"]), "--edges");
+    fs::create_dir(folder.join("done")).unwrap();
+    fs::write(folder.join("done/manifest.json"), "{}").unwrap();
+    refused(folder, &["evaluate", &ci, "--string", "", "--out", "done"], "the results folder of a run");
+}
+
+#[test]
+fn strings_come_from_any_spreadsheet() {
+    let temporary = tempfile::tempdir().unwrap();
+    let folder = temporary.path();
+    let ci = ci();
+    let evaluate = |text: &str| {
+        fs::write(folder.join("s.csv"), text).unwrap();
+        quadrille(folder, &["evaluate", &ci, "--strings", "s.csv"])
+    };
+    let commas = evaluate("name,string\ninitial,\nother,TPD\n");
+    let semicolons = evaluate("\u{feff}name;string\r\ninitial;\r\nother;TPD\r\n");
+    assert_eq!(commas.status.code(), Some(0));
+    assert_eq!(commas.stdout, semicolons.stdout);
+    for (text, words) in [
+        ("string\n", "no strings below the header"),
+        ("", "the file is empty"),
+        ("name\nx\n", "no column `string`; found name"),
+    ] {
+        fs::write(folder.join("s.csv"), text).unwrap();
+        refused(folder, &["evaluate", &ci, "--strings", "s.csv"], words);
+    }
+    refused(folder, &["evaluate", &ci], "--string S or --strings FILE.csv");
+}
+
+#[test]
+fn a_hint_can_be_typed_as_it_stands() {
+    let temporary = tempfile::tempdir().unwrap();
+    let output = quadrille(temporary.path(), &["init", "my roof"]);
+    assert!(String::from_utf8(output.stderr).unwrap().contains("quadrille run 'my roof.toml'"));
+}
+
+#[test]
+fn requirements_have_either_direction_unless_the_height_is_sized() {
+    let temporary = tempfile::tempdir().unwrap();
+    let folder = temporary.path();
+    let text = fs::read_to_string(ci()).unwrap();
+    let with = |name: &str, more: &str| fs::write(folder.join(name), format!("{text}\n{more}\n")).unwrap();
+    let stiff = "[[structure.requirement]]\nquantity = \"deflection\"\ncombination = \"sls\"\nmin = 1000.0";
+    with("stiff.toml", stiff);
+    let output = quadrille(folder, &["evaluate", "stiff.toml", "--string", ""]);
+    let shown = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(shown.contains("(limit 1000)"), "{shown}");
+    let sized = "structure.height={min_m=0.05,max_m=0.4,step_m=0.01}";
+    refused(
+        folder,
+        &["evaluate", "stiff.toml", "--string", "", "--set", sized],
+        "a lower limit beside a height",
+    );
+}
