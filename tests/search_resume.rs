@@ -4,9 +4,14 @@ mod search;
 
 use std::fs;
 use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
 
-use quadrille::random::{below, stream};
-use quadrille::search::{Ended, Observer, Outcome, Progress, Silent, StopFlag, Store, StoreError};
+use quadrille::grammar::Tokens;
+use quadrille::random::{Rng, below, stream};
+use quadrille::search::{
+    Ended, Evaluation, Identity, Observer, Outcome, Problem, Progress, RuleOperator, Silent, StopFlag, Store,
+    StoreError, ThreadServer, run,
+};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -220,4 +225,85 @@ fn a_full_disk_is_named() {
     std::os::unix::fs::symlink("/dev/full", folder.path().join("evaluations.jsonl")).expect("symlink");
     let error = Store::create(folder.path(), config()).expect_err("no space left");
     assert!(error.to_string().contains("No space left"), "{error}");
+}
+
+/// Raises the flag when its n-th string is bred, as a signal during long breeding.
+struct StopsBreeding {
+    inner: Counting,
+    bred: AtomicU64,
+    stop_at: u64,
+    flag: StopFlag,
+}
+
+impl StopsBreeding {
+    fn count(&self) {
+        if self.bred.fetch_add(1, Ordering::Relaxed) + 1 == self.stop_at {
+            self.flag.raise(SIGINT);
+        }
+    }
+}
+
+impl Problem for StopsBreeding {
+    fn identify(&self, tokens: &Tokens) -> Identity {
+        self.inner.identify(tokens)
+    }
+    fn evaluate(&self, tokens: &Tokens) -> Evaluation {
+        self.inner.evaluate(tokens)
+    }
+    fn random(&self, rng: &mut Rng) -> Tokens {
+        self.count();
+        self.inner.random(rng)
+    }
+    fn vary(&self, operator: RuleOperator, expressed: &Tokens, rng: &mut Rng) -> Option<Tokens> {
+        self.count();
+        self.inner.vary(operator, expressed, rng)
+    }
+}
+
+#[test]
+fn breeding_ends_with_the_string_in_hand() {
+    let undisturbed = run_silently(&Counting::new(), &settings(8), 1);
+    for stop_at in [1, 5, 16, 17, 19, 40] {
+        let folder = tempfile::tempdir().expect("folder");
+        let flag = StopFlag::new();
+        let bred = AtomicU64::new(0);
+        let problem = StopsBreeding { inner: Counting::new(), bred, stop_at, flag: flag.clone() };
+        let mut store = Store::create(folder.path(), config()).expect("store");
+        let server = ThreadServer::new(&problem, 2).expect("threads");
+        let outcome =
+            run(&problem, &server, &settings(8), &flag, Some(&mut store), &mut Silent).expect("run");
+        assert_eq!(outcome.ended, Ended::Interrupted(SIGINT));
+        assert_eq!(problem.bred.load(Ordering::Relaxed), stop_at, "nothing is bred after the signal");
+        drop(store);
+        assert_eq!(resume(folder.path()), undisturbed, "stopped at string {stop_at}");
+    }
+}
+
+#[test]
+fn without_a_checkpoint_to_go_on_from_a_run_warns_that_it_begins_again() {
+    struct Warned(Vec<String>);
+    impl Observer for Warned {
+        fn warning(&mut self, message: &str) {
+            self.0.push(message.to_owned());
+        }
+    }
+    let warned = |damage: &dyn Fn(&Path)| {
+        let folder = killed_after(70);
+        damage(folder.path());
+        let mut warned = Warned(Vec::new());
+        let mut store = Store::resume(folder.path(), config()).expect("resumable");
+        run_stored(&Counting::new(), &settings(8), &mut store, &StopFlag::new(), &mut warned).expect("run");
+        warned.0
+    };
+    let both = ["checkpoint.json", "checkpoint.previous.json"];
+    let spoilt =
+        warned(&|folder| both.iter().for_each(|name| fs::write(folder.join(name), "{").expect("a file")));
+    let [message] = spoilt.as_slice() else { panic!("{spoilt:?}") };
+    let end =
+        "the run begins again from generation 0; the 70 evaluations in evaluations.jsonl are used again";
+    assert_eq!(*message, format!("neither checkpoint can be used: {end}"));
+    let gone =
+        warned(&|folder| both.iter().for_each(|name| fs::remove_file(folder.join(name)).expect("gone")));
+    assert_eq!(gone, [format!("there is no checkpoint: {end}")]);
+    assert_eq!(warned(&|_| ()), [""; 0]);
 }

@@ -11,7 +11,7 @@ pub struct ConsoleArgs {
     /// Say nothing on stderr but errors.
     #[arg(long, short, global = true, conflicts_with = "verbose")]
     quiet: bool,
-    /// Say more on stderr; twice: everything.
+    /// Say more on stderr; twice: also what came of every design, as it comes.
     #[arg(short, long, global = true, action = ArgAction::Count)]
     verbose: u8,
     /// How progress is shown on stderr.
@@ -25,7 +25,7 @@ pub enum Progress {
     /// A bar where stderr is a terminal, else plain.
     #[default]
     Auto,
-    /// A bar that redraws itself.
+    /// A bar that redraws itself; plain where stderr is no terminal.
     Bar,
     /// One line a generation.
     Plain,
@@ -46,8 +46,8 @@ impl Console {
     pub fn new(args: &ConsoleArgs) -> Self {
         let progress = match args.progress {
             Progress::Auto if args.quiet => Progress::None,
-            Progress::Auto if io::stderr().is_terminal() => Progress::Bar,
-            Progress::Auto => Progress::Plain,
+            Progress::Auto | Progress::Bar if io::stderr().is_terminal() => Progress::Bar,
+            Progress::Auto | Progress::Bar => Progress::Plain,
             chosen => chosen,
         };
         Self { verbosity: args.verbose, quiet: args.quiet, progress }
@@ -70,6 +70,11 @@ impl Console {
         if self.verbosity > 0 {
             line(message);
         }
+    }
+
+    /// Whether every design is worth a message: `-vv`.
+    pub fn tells_designs(&self) -> bool {
+        self.verbosity > 1
     }
 
     /// A warning, unless `--quiet`.

@@ -3,7 +3,9 @@
 use super::console::{Console, Progress as How};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use quadrille::config::Config;
-use quadrille::search::{GenerationRow, Observer, Progress};
+use quadrille::mesh::Code;
+use quadrille::output::designs::id;
+use quadrille::search::{Evaluation, GenerationRow, Observer, Progress};
 use std::time::{Duration, Instant};
 
 /// Shows the progress of a run on stderr.
@@ -51,9 +53,13 @@ impl Display {
 
     /// A line that does not tear the bar.
     fn say(&self, line: &str) {
+        self.beside_the_bar(|| self.console.note(line));
+    }
+
+    fn beside_the_bar(&self, print: impl FnOnce()) {
         match &self.bar {
-            Some(bar) => bar.suspend(|| self.console.note(line)),
-            None => self.console.note(line),
+            Some(bar) => bar.suspend(print),
+            None => print(),
         }
     }
 
@@ -78,6 +84,16 @@ impl Display {
 }
 
 impl Observer for Display {
+    fn design(&mut self, code: Code, evaluation: &Evaluation) {
+        if self.console.tells_designs() {
+            let told = match evaluation.violation.stage {
+                0 => "feasible".to_owned(),
+                stage => format!("stage {stage}, {}", evaluation.reason),
+            };
+            self.say(&format!("  {}: {told}", id(code)));
+        }
+    }
+
     fn evaluated(&mut self, progress: &Progress) {
         self.now = Some(*progress);
         if let Some(bar) = &self.bar {
@@ -106,14 +122,19 @@ impl Observer for Display {
             _ => {}
         }
         let breeding = &row.breeding;
-        self.console.detail(&format!(
+        let told = format!(
             "  bred {}, duplicates refused {}, neighbours refused {}, rejected by topology {}, immigrants {}",
             breeding.bred, breeding.duplicates, breeding.neighbours, breeding.rejected, breeding.immigrants
-        ));
+        );
+        self.beside_the_bar(|| self.console.detail(&told));
     }
 
     fn notice(&mut self, message: &str) {
         self.say(&format!("note: {message}"));
+    }
+
+    fn warning(&mut self, message: &str) {
+        self.beside_the_bar(|| self.console.warn(message));
     }
 }
 

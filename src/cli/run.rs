@@ -226,8 +226,9 @@ fn summarise(study: &Study, outcome: &Outcome, folder: &Folder, clock: Instant, 
     if outcome.front.is_empty() {
         console.always(&obstacles::sentence(&outcome.evaluated));
     }
-    let folder = folder.path().display();
+    let page = quote(&folder.join(REPORT).to_string_lossy());
+    let folder = quote(&folder.path().to_string_lossy());
     console.note(&format!(
-        "open {folder}/report.html in a browser; `quadrille explain {folder} ID` says what governs a design"
+        "open {page} in a browser; `quadrille explain {folder} ID` says what governs a design"
     ));
 }

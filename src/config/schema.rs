@@ -72,7 +72,7 @@ pub fn required(schema: &Json) -> Vec<&str> {
 
 /// The range of a number, in words; none if all finite numbers will do.
 pub fn range(schema: &Json) -> Option<String> {
-    let bound = |key: &str| schema.get(key).and_then(Json::as_f64).filter(|b| b.abs() < 4e9);
+    let bound = |key: &str| schema.get(key).and_then(Json::as_f64).filter(|b| b.abs() < 1e16);
     let low =
         bound("minimum").map(|b| format!("≥ {b}")).or(bound("exclusiveMinimum").map(|b| format!("> {b}")));
     let high =

@@ -33,7 +33,7 @@ impl Source {
         let values = text.parse::<Table>().map_err(|error| ConfigError::Syntax {
             file: file.to_path_buf(),
             line: error.span().map_or(1, |span| line_of(&text, span.start)),
-            message: error.message().to_owned(),
+            message: syntax(error.message()),
         })?;
         let mut source = Self { file: file.to_path_buf(), text, values, sets: Vec::new() };
         for argument in sets {
@@ -85,6 +85,14 @@ impl Source {
             .collect();
         located.sort_by(|a, b| a.place.cmp(&b.place));
         ConfigError::Invalid(located)
+    }
+}
+
+/// What the parser says; of a number that TOML has no room for, also what it has room for.
+fn syntax(message: &str) -> String {
+    match message.contains("too large") {
+        true => format!("{message}; allowed: whole numbers up to {}", i64::MAX),
+        false => message.to_owned(),
     }
 }
 

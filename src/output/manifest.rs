@@ -23,7 +23,7 @@ pub struct Manifest {
     pub objectives: Vec<String>,
     /// The seed of all chance.
     pub seed: u64,
-    /// Threads that evaluated.
+    /// Threads that evaluated, in the last sitting.
     pub threads: usize,
     /// How the run ended.
     pub status: Status,
@@ -35,7 +35,7 @@ pub struct Manifest {
     pub ended: String,
     /// Counts of the whole run.
     pub counts: Counts,
-    /// Seconds of this sitting.
+    /// Seconds of searching, added up over all sittings that ended with a manifest.
     pub seconds: f64,
     /// The machine.
     pub host: Host,

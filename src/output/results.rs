@@ -170,10 +170,18 @@ impl Run<'_> {
     }
 
     fn write_manifest(&self, folder: &Folder, sitting: &Sitting, status: Status) -> Result<(), ResultsError> {
-        let started = timestamp(sitting.started);
-        let first = Manifest::read(folder.path()).map_or_else(|| started.clone(), |earlier| earlier.started);
-        let Outcome { generations, breeding, .. } = self.outcome;
-        let last = generations.last();
+        let counts = self.counts();
+        let earlier = Manifest::read(folder.path());
+        let same = earlier.as_ref().filter(|earlier| earlier.counts == counts);
+        if same.is_some_and(|earlier| earlier.status == Status::Finished) {
+            // Nothing was done in this sitting: what is there tells of those in which something was.
+            return Ok(());
+        }
+        let threads = same.map_or(sitting.threads, |earlier| earlier.threads);
+        let (started, before) = match earlier {
+            Some(earlier) => (earlier.started, earlier.seconds),
+            None => (timestamp(sitting.started), 0.0),
+        };
         let config = config::to_toml(self.config);
         let manifest = Manifest {
             manifest_version: manifest::VERSION,
@@ -182,22 +190,13 @@ impl Run<'_> {
             name: self.config.run.name.clone().unwrap_or_default(),
             objectives: Columns::of(&self.config.objectives.minimise).objectives,
             seed: self.config.run.seed.unwrap_or_default(),
-            threads: sitting.threads,
+            threads,
             status,
             ended_by: words(self.outcome.ended),
-            started: first,
+            started,
             ended: timestamp(SystemTime::now()),
-            counts: Counts {
-                generations: last.map_or(0, |row| row.generation),
-                evaluations: self.outcome.evaluated.len() as u64,
-                structural_evaluations: last.map_or(0, |row| row.structural),
-                feasible: last.map_or(0, |row| row.feasible),
-                front_size: self.outcome.front.len() as u64,
-                bred: breeding.bred,
-                duplicates_refused: breeding.duplicates,
-                neighbours_refused: breeding.neighbours,
-            },
-            seconds: sitting.seconds,
+            counts,
+            seconds: before + sitting.seconds,
             host: Host::here(),
             config_folder: absolute(self.config_folder),
             config_sha256: config::hash(self.config),
@@ -205,6 +204,21 @@ impl Run<'_> {
             config,
         };
         Ok(folder.write(folder::MANIFEST, &manifest.to_json())?)
+    }
+
+    fn counts(&self) -> Counts {
+        let Outcome { generations, breeding, .. } = self.outcome;
+        let last = generations.last();
+        Counts {
+            generations: last.map_or(0, |row| row.generation),
+            evaluations: self.outcome.evaluated.len() as u64,
+            structural_evaluations: last.map_or(0, |row| row.structural),
+            feasible: last.map_or(0, |row| row.feasible),
+            front_size: self.outcome.front.len() as u64,
+            bred: breeding.bred,
+            duplicates_refused: breeding.duplicates,
+            neighbours_refused: breeding.neighbours,
+        }
     }
 }
 

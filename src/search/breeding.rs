@@ -10,6 +10,7 @@ use super::problem::{Identity, Problem, RuleOperator};
 use super::record::{Breeding, EvaluatedRow, OperatorCount};
 use super::server::Server;
 use super::state::{Member, State};
+use super::stop::StopFlag;
 use crate::evolve::{Fitness, Standing, standings, tournament};
 use crate::grammar::Tokens;
 use crate::random::{Rng, below, chance, stream, unit};
@@ -65,15 +66,17 @@ impl Default for Brood {
 /// Rounds: every open slot drafts one string from its own random stream, in slot order; all drafts are identified
 /// (in parallel, nothing is drawn there); then they are judged in slot order. A slot whose drafts were refused
 /// `tries` times becomes a random immigrant's, and stays empty after as many refusals again.
+///
+/// Long strings take long. The signal that raised `stop` between two drafts is returned; the brood is then not whole.
 pub(crate) fn breed<P: Problem>(
     problem: &P,
     server: &dyn Server,
-    settings: (&SearchParams, u64),
+    settings: (&SearchParams, u64, &StopFlag),
     state: &mut State,
     (brood, wanted): (&mut Brood, usize),
     observer: &mut dyn Observer,
-) {
-    let (search, seed) = settings;
+) -> Option<i32> {
+    let (search, seed, stop) = settings;
     let generation = state.next_generation();
     let mut known = std::mem::take(&mut state.known);
     let (mut slot, end) = (brood.slots, brood.slots + wanted);
@@ -87,14 +90,20 @@ pub(crate) fn breed<P: Problem>(
     let mut open: Vec<Slot> =
         (slot..end).map(|slot| Slot { rng: stream(seed, generation, slot as u32), refused: 0 }).collect();
     let tries = search.duplicates.tries.max(1);
+    let mut stopped = None;
     while !open.is_empty() {
         let drafts: Vec<Draft> = open
             .iter_mut()
+            .take_while(|_| stop.raised().is_none())
             .map(|slot| match generation == 0 || slot.refused >= tries {
                 true => random(problem, search, &mut slot.rng),
                 false => draft(problem, search, &parents, &mut slot.rng),
             })
             .collect();
+        stopped = stop.raised();
+        if stopped.is_some() {
+            break;
+        }
         let strings: Vec<Tokens> = drafts.iter().map(|d| d.tokens.clone()).collect();
         let identities = server.identify(&strings);
         let mut still_open = Vec::new();
@@ -113,6 +122,7 @@ pub(crate) fn breed<P: Problem>(
         open = still_open;
     }
     state.known = known;
+    stopped
 }
 
 /// The generation as it fills.

@@ -37,11 +37,15 @@ pub fn run<P: Problem>(
         Some(store) => store.recover(settings, observer),
         None => State::new(&settings.search),
     };
+    let resumed = state.next_generation();
     loop {
         if let Some(signal) = stop.raised() {
             return Ok(Outcome::of(state, Ended::Interrupted(signal)));
         }
         if let Some(ended) = limits.reached(&state) {
+            if resumed > 0 && resumed == state.next_generation() {
+                observer.notice(&nothing_to_do(resumed - 1, ended, settings));
+            }
             return Ok(Outcome::of(state, ended));
         }
         let mut brood = Brood::default();
@@ -52,10 +56,12 @@ pub fn run<P: Problem>(
             if wanted == 0 || ended.is_some() {
                 break;
             }
-            let chance = (&settings.search, settings.seed);
-            breed(problem, server, chance, &mut state, (&mut brood, wanted), observer);
+            let chance = (&settings.search, settings.seed, stop);
+            let stopped = breed(problem, server, chance, &mut state, (&mut brood, wanted), observer);
             let batch = Batch { children: &brood.children, state: &state, settings, limits: &limits, stop };
             (evaluations, ended) = batch.evaluate(evaluations, server, store.as_deref_mut(), observer)?;
+            // What was bred may all be known, yet the generation is not whole.
+            ended = ended.or(stopped.map(Ended::Interrupted));
         }
         state.finish(settings, brood.children, evaluations, brood.breeding);
         if let Some(ended) = ended {
@@ -68,6 +74,15 @@ pub fn run<P: Problem>(
             observer.generation(row);
         }
     }
+}
+
+/// Why a resumed run is over before it goes on.
+fn nothing_to_do(done: u32, ended: Ended, settings: &Settings) -> String {
+    let asked = match ended {
+        Ended::Generations => format!("{} generations are asked for", settings.search.generations),
+        _ => "another of its limits is reached".to_owned(),
+    };
+    format!("the run has already done {done} generations, and {asked}: nothing is done")
 }
 
 /// How many children count, rather than being cheap failures: analysed, feasible, or known before.
@@ -259,6 +274,7 @@ impl<'a> Sitting<'a> {
         self.progress.feasible += u64::from(evaluation.violation.is_feasible());
         self.progress.pending -= 1;
         self.progress.recovered += u64::from(recovered);
+        self.observer.design(self.batch.children[k].identity.code, &evaluation);
         self.evaluations[k] = Some(evaluation);
         self.observer.evaluated(&self.progress);
     }

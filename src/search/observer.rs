@@ -1,6 +1,8 @@
 //! How a run tells of itself: the library prints nothing and draws no random number for it.
 
+use super::problem::Evaluation;
 use super::record::GenerationRow;
+use crate::mesh::canonical::Code;
 
 /// Where a run stands, after every evaluation.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -21,6 +23,9 @@ pub struct Progress {
 
 /// Receives the progress of a run, on the caller's thread. What it does cannot change the result.
 pub trait Observer {
+    /// What came of a design.
+    fn design(&mut self, _code: Code, _evaluation: &Evaluation) {}
+
     /// A design was evaluated.
     fn evaluated(&mut self, _progress: &Progress) {}
 
@@ -29,6 +34,9 @@ pub trait Observer {
 
     /// Something worth a line: a damaged checkpoint, a string that could not be decoded.
     fn notice(&mut self, _message: &str) {}
+
+    /// Something that costs time or results: no checkpoint of an earlier sitting can be used.
+    fn warning(&mut self, _message: &str) {}
 }
 
 /// Tells nobody.

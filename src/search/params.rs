@@ -96,7 +96,7 @@ pub struct TokenBounds {
     /// Fewest tokens of a bred string.
     pub min: usize,
     /// Most tokens.
-    #[schemars(extend("minimum" = 1))]
+    #[schemars(extend("minimum" = 1, "maximum" = 10_000))]
     pub max: usize,
 }
 

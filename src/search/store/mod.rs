@@ -60,6 +60,8 @@ struct Found {
     /// Evaluations that no row holds yet. Only looked up.
     spare: HashMap<Code, Evaluation>,
     notices: Vec<String>,
+    /// Checkpoints that are there, the damaged ones included.
+    checkpoint_files: usize,
 }
 
 impl Store {
@@ -92,6 +94,7 @@ impl Store {
         let mut found = Found::default();
         let mut recorded = None;
         for name in [CHECKPOINT, CHECKPOINT_PREVIOUS] {
+            found.checkpoint_files += usize::from(folder.join(name).exists());
             match checkpoint::read(&folder.join(name)) {
                 Ok(Some(checkpoint)) => {
                     recorded.get_or_insert(checkpoint.config.clone());
@@ -151,6 +154,10 @@ impl Store {
                 checkpoint.evaluations
             ));
         }
+        // Nothing is lost where no generation was finished.
+        if found.checkpoint_files > 0 || found.entries.iter().any(|entry| entry.generation > 0) {
+            observer.warning(&anew(found.checkpoint_files, found.entries.len()));
+        }
         self.found.spare = found.entries.into_iter().map(Entry::into_evaluation).collect();
         State::new(&settings.search)
     }
@@ -182,4 +189,16 @@ impl Store {
         }
         atomic::write(&newest, &bytes).map_err(|error| StoreError::io(&newest, error))
     }
+}
+
+/// What a run without a checkpoint to go on from does.
+fn anew(checkpoints: usize, evaluations: usize) -> String {
+    let found = match checkpoints {
+        0 => "there is no checkpoint",
+        1 => "the checkpoint cannot be used",
+        _ => "neither checkpoint can be used",
+    };
+    format!(
+        "{found}: the run begins again from generation 0; the {evaluations} evaluations in {JOURNAL} are used again"
+    )
 }
