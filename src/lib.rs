@@ -16,6 +16,7 @@ pub mod evolve;
 pub mod geometry;
 pub mod grammar;
 pub mod io;
+pub mod json;
 pub mod mesh;
 pub mod objectives;
 pub mod output;

@@ -44,6 +44,28 @@ fn places_that_cannot_be_written_are_refused_before_anything_is_evaluated() {
 }
 
 #[test]
+fn numbers_below_zero_and_files_of_another_kind_are_named() {
+    let temporary = tempfile::tempdir().unwrap();
+    let folder = temporary.path();
+    let ci = ci();
+    for option in ["--threads", "--seed", "--generations"] {
+        refused(folder, &["run", &ci, option, "-1"], "invalid value '-1'");
+    }
+    refused(folder, &["distance", &ci, "--a", "A", "--b", "A", "--max", "-1"], "invalid value '-1'");
+    refused(folder, &["check", "nowhere.toml"], "`quadrille init` writes one");
+    for (text, words) in [
+        ("[]", "expected an object with the keys"),
+        ("{}", "missing key"),
+        ("5", "expected an object with the keys"),
+        ("x", "b.json: expected value at line 1"),
+    ] {
+        fs::write(folder.join("b.json"), text).unwrap();
+        refused(folder, &["decode", "--base", "b.json", "--string", "A"], words);
+        refused(folder, &["frame", "b.json"], words);
+    }
+}
+
+#[test]
 fn strings_come_from_any_spreadsheet() {
     let temporary = tempfile::tempdir().unwrap();
     let folder = temporary.path();

@@ -8,14 +8,15 @@ use std::path::{Path, PathBuf};
 /// For each module, what it may use of the crate besides itself.
 const ARROWS: &[(&str, &[&str])] = &[
     ("random", &[]),
-    ("mesh", &[]),
+    ("json", &[]),
+    ("mesh", &["json"]),
     ("grammar", &["mesh", "random"]),
     ("io", &["mesh"]),
     ("surface", &["io"]),
     ("domain", &["mesh", "io", "surface"]),
     ("skeleton", &["mesh", "io", "surface", "domain", "geometry"]),
     ("geometry", &["mesh", "surface", "domain"]),
-    ("structure", &["geometry", "random"]),
+    ("structure", &["geometry", "json", "random"]),
     ("objectives", &["mesh", "geometry", "structure"]),
     ("evolve", &["random"]),
     ("search", &["mesh", "grammar", "evolve", "random", "output"]),

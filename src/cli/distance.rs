@@ -23,7 +23,7 @@ pub struct Args {
     #[arg(long, value_name = "STRING", allow_hyphen_values = true)]
     b: String,
     /// Look no further than this: the answer is then "more than N". The work grows fast with it.
-    #[arg(long, value_name = "N", default_value_t = 3)]
+    #[arg(long, value_name = "N", default_value_t = 3, allow_negative_numbers = true)]
     max: usize,
     /// Ignore boundary loops and corners: designs that sit differently on the domain are the same.
     #[arg(long)]

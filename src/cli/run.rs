@@ -36,13 +36,13 @@ pub struct Args {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Seed of all chance; the same as `--set run.seed=N`.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     seed: Option<u64>,
     /// Threads, 0 = all cores; the same as `--set run.threads=N`.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     threads: Option<usize>,
     /// Generations after the first population; the same as `--set search.generations=N`.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     generations: Option<u32>,
     /// Go on with an interrupted run, or with a finished one whose limits were raised.
     #[arg(long, conflicts_with = "force")]

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 #[derive(Debug, thiserror::Error)]
 pub enum ConfigError {
     /// The file could not be read.
-    #[error("{}: {source}", file.display())]
+    #[error("{}: {source}; expected: a config in TOML, as `quadrille init` writes one", file.display())]
     Read {
         /// The file.
         file: PathBuf,

@@ -5,18 +5,14 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 
 use super::base::BaseMesh;
+use crate::json::{self, JsonError};
 
 /// A base mesh file that cannot be read. The message names the key and, for broken JSON, line and column.
 #[derive(Debug, thiserror::Error)]
 pub enum BaseJsonError {
     /// Not JSON, or not of this shape.
-    #[error("{key}: {error}")]
-    Shape {
-        /// Where in the file, as a path of keys.
-        key: String,
-        /// What is wrong there.
-        error: serde_json::Error,
-    },
+    #[error(transparent)]
+    Shape(#[from] JsonError),
     /// A key of `poles` that is no face number.
     #[error("poles: {key:?} is not a face number")]
     PoleKey {
@@ -26,6 +22,7 @@ pub enum BaseJsonError {
 }
 
 #[derive(Deserialize)]
+#[serde(expecting = "an object with the keys vertices and faces")]
 struct File {
     vertices: Vec<[f64; 3]>,
     faces: Vec<Vec<u32>>,
@@ -50,10 +47,7 @@ enum Corner {
 /// # Errors
 /// Where the file is not as described.
 pub fn read(text: &str) -> Result<BaseMesh, BaseJsonError> {
-    let mut json = serde_json::Deserializer::from_str(text);
-    let file: File = serde_path_to_error::deserialize(&mut json)
-        .map_err(|error| BaseJsonError::Shape { key: error.path().to_string(), error: error.into_inner() })?;
-    json.end().map_err(|error| BaseJsonError::Shape { key: "after the mesh".into(), error })?;
+    let file: File = json::read(text)?;
     let mut poles = BTreeMap::new();
     for (key, pole) in file.poles {
         match key.parse::<u32>() {
@@ -92,7 +86,7 @@ mod tests {
         assert!(message(r#"{"vertices": [[0, 0, "x"]], "faces": []}"#).starts_with("vertices[0][2]: "));
         assert!(message(r#"{"vertices": [[0, 0, NaN]], "faces": []}"#).contains("line 1 column"));
         assert!(message(r#"{"vertices": [], "faces": [[0, -1, 2]]}"#).starts_with("faces[0][1]: "));
-        assert!(message(r#"{"vertices": []}"#).contains("missing field `faces`"));
+        assert!(message(r#"{"vertices": []}"#).contains("missing key `faces`"));
         assert!(message(r#"{"vertices": [], "faces": [], "poles": {"a": 0}}"#).contains("\"a\""));
         assert!(message(r#"{"vertices": [], "faces": [], "corners": ["x"]}"#).contains("corners[0]"));
     }

@@ -6,19 +6,15 @@ use super::model::{
     FrameModel, FrameParts, LoadCase, Material, Member, ModelError, NodalLoad, Support, UniformLoad,
 };
 use super::section::{Section, SectionError};
+use crate::json::{self, JsonError};
 use serde::{Deserialize, Serialize};
 
 /// Why a model file is refused.
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
     /// Not JSON, a key missing, a wrong type.
-    #[error("{path}{source}")]
-    Json {
-        /// Where in the file, by keys; empty or ending in `: `.
-        path: String,
-        /// What is wrong, with line and column.
-        source: serde_json::Error,
-    },
+    #[error(transparent)]
+    Json(#[from] JsonError),
     /// Readable, but not a model.
     #[error(transparent)]
     Model(#[from] ModelError),
@@ -37,6 +33,7 @@ pub enum FileError {
 const MOST_MODES: u32 = 1000;
 
 #[derive(Deserialize)]
+#[serde(expecting = "an object with the keys material, section, nodes and members")]
 struct File {
     material: FileMaterial,
     section: FileSection,
@@ -53,6 +50,7 @@ struct File {
 }
 
 #[derive(Deserialize)]
+#[serde(expecting = "an object with the keys E, G, density and fy")]
 struct FileMaterial {
     #[serde(rename = "E")]
     e: f64,
@@ -89,6 +87,7 @@ struct Properties {
 }
 
 #[derive(Deserialize)]
+#[serde(expecting = "an object with the keys start, end and up")]
 struct FileMember {
     start: u32,
     end: u32,
@@ -96,13 +95,14 @@ struct FileMember {
 }
 
 #[derive(Deserialize)]
+#[serde(expecting = "an object with the keys node and fixed")]
 struct FileSupport {
     node: u32,
     fixed: [bool; 6],
 }
 
 #[derive(Deserialize, Default)]
-#[serde(default)]
+#[serde(default, expecting = "an object with the keys nodal, member_uniform and gravity, or some of them")]
 struct FileLoads {
     nodal: Vec<FileNodal>,
     member_uniform: Vec<FileUniform>,
@@ -110,6 +110,7 @@ struct FileLoads {
 }
 
 #[derive(Deserialize)]
+#[serde(expecting = "an object with the keys node, force and moment")]
 struct FileNodal {
     node: u32,
     #[serde(default)]
@@ -119,13 +120,14 @@ struct FileNodal {
 }
 
 #[derive(Deserialize)]
+#[serde(expecting = "an object with the keys member and force_per_length")]
 struct FileUniform {
     member: u32,
     force_per_length: [f64; 3],
 }
 
 #[derive(Deserialize)]
-#[serde(default)]
+#[serde(default, expecting = "an object with the keys order and buckling_modes")]
 struct FileAnalysis {
     order: u64,
     buckling_modes: u32,
@@ -142,16 +144,7 @@ impl Default for FileAnalysis {
 /// # Errors
 /// See [`FileError`].
 pub fn read(text: &str) -> Result<(FrameModel, FrameAnalysis), FileError> {
-    let mut deserializer = serde_json::Deserializer::from_str(text);
-    let file: File = match serde_path_to_error::deserialize(&mut deserializer) {
-        Ok(file) => file,
-        Err(error) => {
-            let path = error.path().to_string();
-            let path = if path == "." { String::new() } else { format!("{path}: ") };
-            return Err(FileError::Json { path, source: error.into_inner() });
-        }
-    };
-    deserializer.end().map_err(|source| FileError::Json { path: String::new(), source })?;
+    let file: File = json::read(text)?;
     let order = match file.analysis.order {
         1 => 1,
         2 => 2,

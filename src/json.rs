@@ -1,0 +1,62 @@
+//! JSON that users and other programs write, read with errors in their words.
+
+use serde::de::DeserializeOwned;
+
+/// Why a text is not what was expected: the place in it, by keys, and what is wrong there, with line and column.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+#[error("{}{message}", place(.key))]
+pub struct JsonError {
+    /// Keys and indices that lead there, as in `faces[0][2]`; empty for the whole.
+    pub key: String,
+    /// What is wrong, with line and column.
+    pub message: String,
+}
+
+fn place(key: &str) -> String {
+    if key.is_empty() { String::new() } else { format!("{key}: ") }
+}
+
+/// What serde calls the types of Rust, and what a user calls them.
+const WORDS: [(&str, &str); 5] = [
+    ("expected u32", "expected a whole number ≥ 0"),
+    ("expected u64", "expected a whole number ≥ 0"),
+    ("expected f64", "expected a number"),
+    ("expected a sequence", "expected a list"),
+    ("missing field", "missing key"),
+];
+
+/// Reads one value and nothing after it.
+///
+/// # Errors
+/// [`JsonError`], also for what comes after the value.
+pub fn read<T: DeserializeOwned>(text: &str) -> Result<T, JsonError> {
+    let mut json = serde_json::Deserializer::from_str(text);
+    let value = serde_path_to_error::deserialize(&mut json).map_err(|error| {
+        let key = error.path().to_string();
+        wrong(if key == "." { "" } else { &key }, error.inner())
+    })?;
+    json.end().map_err(|error| wrong("", &error))?;
+    Ok(value)
+}
+
+fn wrong(key: &str, error: &serde_json::Error) -> JsonError {
+    let message = WORDS.iter().fold(error.to_string(), |text, (from, to)| text.replace(from, to));
+    JsonError { key: key.to_owned(), message }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_speak_of_numbers_and_places() {
+        type Faces = std::collections::BTreeMap<String, Vec<[u32; 2]>>;
+        let error = |text: &str| read::<Faces>(text).expect_err("wrong").to_string();
+        assert_eq!(
+            error(r#"{"faces": [[0, 1], [2, -3]]}"#),
+            "faces[1][1]: invalid value: integer `-3`, expected a whole number ≥ 0 at line 1 column 25"
+        );
+        assert_eq!(error("{} x"), "trailing characters at line 1 column 4");
+        assert_eq!(error(""), "EOF while parsing a value at line 1 column 0");
+    }
+}
