@@ -52,6 +52,11 @@ fn numbers_below_zero_and_files_of_another_kind_are_named() {
         refused(folder, &["run", &ci, option, "-1"], "invalid value '-1'");
     }
     refused(folder, &["distance", &ci, "--a", "A", "--b", "A", "--max", "-1"], "invalid value '-1'");
+    refused(
+        folder,
+        &["check", &ci, "--set", "topology.initial={grid=[0,2]}"],
+        "a list (2) of: a whole number ≥ 1\n",
+    );
     refused(folder, &["check", "nowhere.toml"], "`quadrille init` writes one");
     for (text, words) in [
         ("[]", "expected an object with the keys"),

@@ -107,12 +107,13 @@ fn allowed_alone(schema: &Json) -> String {
         return with_range("a number");
     }
     if is_type(schema, "array") {
-        let item = items(schema, 0).map_or("values".into(), allowed);
-        return format!(
-            "a list{} of: {item}{}",
-            counts(schema),
-            range(schema).map_or(String::new(), |r| format!(" {r}"))
-        );
+        // A range of the list is that of all its items, instead of their own.
+        let item = items(schema, 0).map_or("values".into(), |item| match range(schema) {
+            Some(range) if is_type(item, "integer") => format!("a whole number {range}"),
+            Some(range) => format!("a number {range}"),
+            None => allowed(item),
+        });
+        return format!("a list{} of: {item}", counts(schema));
     }
     match (tag(schema), properties(schema)) {
         (Some(kind), _) => format!("{{ kind = \"{kind}\", … }}"),
