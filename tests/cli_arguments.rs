@@ -57,6 +57,12 @@ fn numbers_below_zero_and_files_of_another_kind_are_named() {
         &["check", &ci, "--set", "topology.initial={grid=[0,2]}"],
         "a list (2) of: a whole number ≥ 1\n",
     );
+    refused(
+        folder,
+        &["check", &ci, "--set", "structure.support[0].at=\"loop = 1\""],
+        "or loop = 0, 1, … instead of at",
+    );
+    refused(folder, &["check", &ci, "--set", "surface.rise_m=inf"], "found inf; allowed: a finite number");
     refused(folder, &["check", "nowhere.toml"], "`quadrille init` writes one");
     for (text, words) in [
         ("[]", "expected an object with the keys"),

@@ -85,8 +85,14 @@ pub fn range(schema: &Json) -> Option<String> {
 
 /// What a schema allows, in words.
 pub fn allowed(schema: &Json) -> String {
-    let list: Vec<String> = alternatives(schema).into_iter().map(allowed_alone).collect();
+    let mut list: Vec<String> = alternatives(schema).into_iter().map(allowed_alone).collect();
+    list.extend(instead(schema).map(str::to_owned));
     list.join(", or ")
+}
+
+/// Another key, in words, that says what this one cannot.
+fn instead(schema: &Json) -> Option<&str> {
+    schema.get("x-instead").and_then(Json::as_str)
 }
 
 fn allowed_alone(schema: &Json) -> String {
@@ -169,7 +175,7 @@ impl Checker<'_> {
         let fitting: Vec<&Json> = alternatives(schema).into_iter().filter(|s| fits(value, s)).collect();
         match (value, fitting.as_slice()) {
             (_, []) => self.refuse(path, format!("found {}; allowed: {}", found(value), allowed(schema))),
-            (Value::String(text), _) => self.word(text, &fitting, path),
+            (Value::String(text), _) => self.word(text, &fitting, instead(schema), path),
             (Value::Table(table), [first, ..]) => match tag(first) {
                 Some(_) => self.tagged(table, &fitting, path),
                 None => self.table(table, nearest_table(table, &fitting), path),
@@ -180,15 +186,16 @@ impl Checker<'_> {
         }
     }
 
-    fn word(&mut self, text: &str, schemas: &[&Json], path: &KeyPath) {
+    fn word(&mut self, text: &str, schemas: &[&Json], instead: Option<&str>, path: &KeyPath) {
         let free = schemas.iter().any(|s| words(s).is_empty());
         let known: Vec<&str> = schemas.iter().flat_map(|s| words(s)).collect();
         if free || known.contains(&text) {
             return;
         }
         let allowed: Vec<String> = known.iter().map(|word| format!("\"{word}\"")).collect();
-        let hint = suggestion(text, &known);
-        self.refuse(path, format!("found \"{text}\"{hint}; allowed: {}", allowed.join(", ")));
+        let (hint, instead) =
+            (suggestion(text, &known), instead.map_or(String::new(), |i| format!(", or {i}")));
+        self.refuse(path, format!("found \"{text}\"{hint}; allowed: {}{instead}", allowed.join(", ")));
     }
 
     fn number(&mut self, value: &Value, schema: &Json, path: &KeyPath) {
@@ -204,7 +211,9 @@ impl Checker<'_> {
             && bound("maximum").is_none_or(|b| number <= b)
             && bound("exclusiveMaximum").is_none_or(|b| number < b);
         if !inside {
-            self.refuse(path, format!("found {}; allowed: {}", found(value), allowed(schema)));
+            let finite = if number.is_finite() { "a number" } else { "a finite number" };
+            let allowed = allowed(schema).replace("a number", finite);
+            self.refuse(path, format!("found {}; allowed: {allowed}", found(value)));
         }
     }
 

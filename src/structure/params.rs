@@ -238,6 +238,7 @@ pub struct ExcludeParams {
 pub struct SupportParams {
     /// `"boundary"`: all boundary nodes; `"corners"`: the corners of loop 0; `"all"`: every node. Or give `loop`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-instead" = "loop = 0, 1, … instead of at"))]
     pub at: Option<SupportPlace>,
     /// All nodes of this boundary loop, from 0.
     #[serde(default, rename = "loop", skip_serializing_if = "Option::is_none")]
