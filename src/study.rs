@@ -4,7 +4,7 @@
 //! designer's commands with whole [`Design`]s.
 
 use crate::config::Config;
-use crate::domain::{Domain, DomainError};
+use crate::domain::{self, Domain, DomainError};
 use crate::evolve::{FAILED, Violation};
 use crate::geometry::limits::{self, LimitExcess};
 use crate::geometry::metrics::{self, Fabrication};
@@ -166,6 +166,17 @@ impl Study {
             structure: config.structure.clone(),
             search: config.search.clone(),
         })
+    }
+
+    /// Symmetries that boundary, surface and supports of `config`, of which this study was made, have and that it does not use.
+    pub fn unused_symmetries(&self, config: &Config) -> Vec<&'static str> {
+        let holds = |kind: &domain::Symmetry| {
+            let symmetry = self.domain.symmetry(*kind).ok();
+            symmetry.filter(|symmetry| !self.symmetries.contains(symmetry)).is_some_and(|symmetry| {
+                config.structure.as_ref().is_none_or(|params| check_supports(&[symmetry], params).is_ok())
+            })
+        };
+        domain::Symmetry::ALL.iter().filter(|kind| holds(kind)).map(|kind| kind.name()).collect()
     }
 
     /// Reads a string.

@@ -37,6 +37,15 @@ fn init_writes_a_config_that_checks_and_never_overwrites() {
 }
 
 #[test]
+fn check_names_the_symmetries_that_nothing_uses() {
+    let court = concat!(env!("CARGO_MANIFEST_DIR"), "/configs/great_court.toml");
+    // The circle is not in the middle of the rectangle's long side.
+    assert!(stdout_of(&["check", court]).contains("not used, mirror-x: with them"));
+    let used = stdout_of(&["check", court, "--set", "domain.symmetries=[\"mirror-x\"]"]);
+    assert!(!used.contains("not used"), "{used}");
+}
+
+#[test]
 fn manual_pages_say_what_help_says() {
     let folder = tempfile::tempdir().unwrap();
     let written = quadrille().args(["man", "--out", "man1"]).current_dir(&folder).output().unwrap();

@@ -19,13 +19,21 @@ pub struct Args {
 /// Prints the resolved config.
 pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     let config = args.config.load(&[])?;
-    args.config.study(&config)?;
+    let study = args.config.study(&config)?;
     for warning in config::warnings(&config) {
         console.warn(&warning);
     }
     outln!("# {}: what this config means", args.config.config.display());
     for line in config::describe(&config) {
         outln!("# * {line}");
+    }
+    let unused = study.unused_symmetries(&config);
+    if !unused.is_empty() {
+        outln!(
+            "# * boundary, surface and supports have symmetries that are not used, {}: with them in domain.symmetries, \
+             designs that are images of each other are evaluated once",
+            unused.join(", ")
+        );
     }
     outln!();
     out!("{}", config::to_toml(&config));

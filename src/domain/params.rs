@@ -34,6 +34,11 @@ pub enum Symmetry {
     Rotate180,
 }
 
+impl Symmetry {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::MirrorX, Self::MirrorY, Self::Rotate180];
+}
+
 /// One boundary loop. Points are `[x, y]` or `[x, y, z]`, in metres.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]

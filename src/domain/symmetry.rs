@@ -35,8 +35,8 @@ impl Domain {
     /// A symmetry that boundary or surface do not have, and what has no image.
     pub fn symmetries(&self, wanted: &[Kind]) -> Result<Vec<Symmetry>, DomainError> {
         let has = |kind| wanted.contains(&kind);
-        let pairs = [Kind::MirrorX, Kind::MirrorY, Kind::Rotate180].into_iter().filter(|&k| has(k)).count();
-        [Kind::MirrorX, Kind::MirrorY, Kind::Rotate180]
+        let pairs = Kind::ALL.into_iter().filter(|&k| has(k)).count();
+        Kind::ALL
             .into_iter()
             .filter(|&kind| has(kind) || pairs >= 2)
             .map(|kind| self.symmetry(kind))
