@@ -46,6 +46,14 @@ pub enum FolderError {
     /// It holds an interrupted run.
     #[error("{} holds an interrupted run; --resume goes on with it, --force starts anew", .0.display())]
     Interrupted(PathBuf),
+    /// It holds something else that a run would replace.
+    #[error("{} holds {name}, which no run there wrote and this one would replace; give another --out, or --force to overwrite it", path.display())]
+    Occupied {
+        /// The folder.
+        path: PathBuf,
+        /// The file or folder in it.
+        name: &'static str,
+    },
     /// There is nothing to go on with.
     #[error("{} holds no checkpoint to resume", .0.display())]
     NoCheckpoint(PathBuf),
@@ -62,7 +70,7 @@ pub enum FolderError {
 /// What a run does with what is there.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Opening {
-    /// Only an empty or new folder will do.
+    /// Only a folder in which nothing would be replaced.
     New,
     /// Whatever is there is removed.
     Overwrite,
@@ -112,10 +120,20 @@ impl Folder {
             Opening::Resume => {}
             Opening::New if finished => return Err(FolderError::Finished(folder.path)),
             Opening::New if checkpoint => return Err(FolderError::Interrupted(folder.path)),
-            Opening::New => {}
+            Opening::New => folder.refuse_occupied()?,
             Opening::Overwrite => folder.clear()?,
         }
         Ok(folder)
+    }
+
+    /// Refuses a folder with files of others under the names of a run's: they would be replaced, or removed with all of
+    /// `designs/`.
+    fn refuse_occupied(&self) -> Result<(), FolderError> {
+        let names = [HISTORY, GENERATIONS, OPERATORS, REPORT, DESIGNS, DESIGN_EXPLORER];
+        match names.into_iter().find(|name| self.join(name).exists()) {
+            None => Ok(()),
+            Some(name) => Err(FolderError::Occupied { path: self.path.clone(), name }),
+        }
     }
 
     /// Removes what a run writes, and nothing else.
@@ -237,6 +255,21 @@ mod tests {
         assert!(matches!(open(Opening::New), Err(FolderError::Interrupted(_))));
         fs::remove_file(temporary.path().join(CHECKPOINT)).unwrap();
         assert!(matches!(open(Opening::New), Err(FolderError::Finished(_))));
+    }
+
+    #[test]
+    fn files_of_others_are_not_replaced() {
+        for name in ["designs/mine.txt", "history.csv"] {
+            let temporary = tempfile::tempdir().unwrap();
+            let path = temporary.path().join(name);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(&path, b"mine").unwrap();
+            let refused = Folder::open(temporary.path(), Opening::New).unwrap_err();
+            assert!(matches!(refused, FolderError::Occupied { .. }), "{refused}");
+            assert!(path.exists());
+            Folder::open(temporary.path(), Opening::Overwrite).unwrap();
+            assert!(!path.exists());
+        }
     }
 
     #[test]
