@@ -168,6 +168,12 @@ fn set_is_checked_alike() {
         ("search.populaton=3", "did you mean `population`?"),
         ("search.population", "found no `=`"),
         ("domain.loop[4].radius_m=3", "there is no entry 4; allowed: 0 to 0"),
+        ("search.generations=5000000000", "found 5000000000; allowed: a whole number ≥ 0 and ≤ 4294967295"),
+        (
+            "structure.elements_per_member=5000000000",
+            "found 5000000000; allowed: a whole number ≥ 1 and ≤ 100",
+        ),
+        ("pattern.max_faces=100000000000", "found 100000000000; allowed: a whole number ≥ 1 and ≤ 10000000"),
     ] {
         let (stderr, code) = run(&configs, &["check", "dome.toml", "--set", set]);
         assert_eq!(code, Some(2), "{set}");

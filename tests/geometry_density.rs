@@ -44,3 +44,12 @@ fn no_target_length_comes_nearer() {
     }
     assert_eq!(off, 4);
 }
+
+#[test]
+fn more_panels_than_can_be_counted_are_too_many() {
+    let study = great_court();
+    let mesh = study.topology(&"".parse().unwrap());
+    let coarse = Coarse::of(&mesh);
+    let parts = density::parts(&vec![20.0; mesh.strips.len()], 1e-9);
+    assert_eq!(panel_count(&coarse, &parts), usize::MAX, "no sum that has gone around");
+}

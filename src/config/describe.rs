@@ -247,7 +247,7 @@ fn describe_requirement(requirement: &RequirementParams) -> String {
 
 fn describe_search(config: &Config) -> Vec<String> {
     let search = &config.search;
-    let most = search.population as u64 * (u64::from(search.generations) + 1);
+    let most = (search.population as u64).saturating_mul(u64::from(search.generations) + 1);
     let mut stops = vec![format!("{} generations", search.generations)];
     stops.extend(search.evaluations.map(|n| format!("{n} structural evaluations")));
     stops.extend(search.minutes.map(|minutes| format!("{minutes} minutes")));

@@ -9,8 +9,7 @@ use crate::geometry::params::{Density, InitialMesh};
 use crate::grammar::Tokens;
 use crate::objectives::{self, METRICS};
 use crate::structure::params::{
-    ElementsPerMember, HeightParams, Quantity, RequirementParams, SectionParams, StructureParams,
-    SupportParams,
+    HeightParams, Quantity, RequirementParams, SectionParams, StructureParams, SupportParams,
 };
 use crate::surface::params::SurfaceParams;
 use std::collections::BTreeMap;
@@ -158,9 +157,6 @@ impl Rules<'_> {
 
     fn structure_keys(&mut self, structure: &StructureParams, loops: usize) {
         self.height(structure);
-        if structure.elements_per_member == ElementsPerMember::Number(0) {
-            self.refuse("structure.elements_per_member", "found 0; allowed: a whole number ≥ 1, or \"auto\"");
-        }
         for (i, support) in structure.supports.iter().enumerate() {
             self.support(support, loops, &KeyPath::of("structure.support").index(i));
         }

@@ -205,6 +205,12 @@ impl Checker<'_> {
             _ => return,
         };
         let bound = |key: &str| schema.get(key).and_then(Json::as_f64);
+        // Where no range is given, what the type of the number has room for.
+        let is_short = schema.get("format").and_then(Json::as_str) == Some("uint32");
+        if is_short && number > f64::from(u32::MAX) && bound("maximum").is_none() {
+            let allowed = format!("{} and ≤ {}", allowed(schema), u32::MAX);
+            return self.refuse(path, format!("found {}; allowed: {allowed}", found(value)));
+        }
         let inside = number.is_finite()
             && bound("minimum").is_none_or(|b| number >= b)
             && bound("exclusiveMinimum").is_none_or(|b| number > b)

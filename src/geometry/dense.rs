@@ -18,14 +18,11 @@ pub struct Dense {
     pub loops: Vec<Vec<u32>>,
 }
 
-/// How many panels the densities give.
+/// How many panels the densities give; `usize::MAX` if there are more than that.
 pub fn panel_count(coarse: &Coarse<'_>, density: &[u32]) -> usize {
-    coarse
-        .mesh
-        .face_strips
-        .iter()
-        .map(|&[s, t]| density[s as usize] as usize * density[t as usize] as usize)
-        .sum()
+    let of_face =
+        |&[s, t]: &[u32; 2]| (density[s as usize] as usize).saturating_mul(density[t as usize] as usize);
+    coarse.mesh.face_strips.iter().map(of_face).fold(0, usize::saturating_add)
 }
 
 /// Divides every strip `s` into `density[s]` parts.

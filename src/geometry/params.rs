@@ -10,14 +10,14 @@ pub struct PatternParams {
     /// Which rule sets the density of strips.
     pub density: Density,
     /// With `density = "panels"`: the number of panels every design comes as near as it can to.
-    #[schemars(extend("minimum" = 1))]
+    #[schemars(extend("minimum" = 1, "maximum" = 10_000_000))]
     pub panels: usize,
     /// With `density = "target_length"`: the edge length, in metres.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub target_length_m: Option<f64>,
     /// Designs with more panels are refused before any geometry.
-    #[schemars(extend("minimum" = 1))]
+    #[schemars(extend("minimum" = 1, "maximum" = 10_000_000))]
     pub max_faces: usize,
     /// How the dense pattern is relaxed.
     pub relax: RelaxParams,

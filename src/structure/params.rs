@@ -84,7 +84,7 @@ impl Default for HeightParams {
 #[serde(untagged)]
 pub enum ElementsPerMember {
     /// This many.
-    Number(u32),
+    Number(#[schemars(range(min = 1, max = 100))] u32),
     /// The word `"auto"`.
     Word(Auto),
 }
