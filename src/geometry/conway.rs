@@ -17,8 +17,8 @@ pub struct PolyMesh {
     pub faces: Vec<Vec<u32>>,
 }
 
-/// A vertex for each panel, a face for each vertex. On the boundary a face ends at the midpoints of the two boundary edges and
-/// the vertex between them.
+/// A vertex for each panel, a face for each vertex, but for inner ones of two panels. On the boundary a face ends at the midpoints
+/// of the two boundary edges and the vertex between them.
 pub fn dual(pattern: &Pattern) -> PolyMesh {
     let parts = Parts::of(pattern);
     let mut mesh = Builder::default();
@@ -34,7 +34,10 @@ pub fn dual(pattern: &Pattern) -> PolyMesh {
             face.extend(midpoints[last]);
             face.push(mesh.push(pattern.positions[v]));
         }
-        mesh.faces.push(face);
+        // An inner vertex of two panels has no face of its own.
+        if face.len() > 2 {
+            mesh.faces.push(face);
+        }
     }
     mesh.finish()
 }
@@ -175,5 +178,45 @@ impl Parts {
             }
         }
         around
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Panel;
+
+    /// Two panels side by side on both sides of the inner vertex 4, which has two edges only.
+    fn two_panels_about_a_vertex() -> Pattern {
+        Pattern {
+            positions: vec![[0.0; 3], [1.0, -1.0, 0.0], [2.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 0.0]],
+            panels: vec![Panel::quad([0, 1, 2, 4]), Panel::quad([2, 3, 0, 4])],
+            edges: vec![[0, 1], [0, 3], [0, 4], [1, 2], [2, 3], [2, 4]],
+            loops: vec![vec![0, 1, 2, 3]],
+            corners: Vec::new(),
+            loop_corners: vec![0..0],
+            coarse: (0..5).collect(),
+            coarse_face: vec![0, 1],
+            target_length: 1.0,
+        }
+    }
+
+    /// Twice the area in plan.
+    fn doubled_area(mesh: &PolyMesh) -> f64 {
+        let of_face = |face: &Vec<u32>| {
+            let at = |i: usize| mesh.positions[face[i % face.len()] as usize];
+            (0..face.len()).map(|i| at(i)[0] * at(i + 1)[1] - at(i + 1)[0] * at(i)[1]).sum::<f64>()
+        };
+        mesh.faces.iter().map(of_face).sum()
+    }
+
+    #[test]
+    fn every_face_has_three_corners_and_the_region_is_that_of_the_pattern() {
+        let pattern = two_panels_about_a_vertex();
+        for operator in [dual, join, ambo] {
+            let mesh = operator(&pattern);
+            assert!(mesh.faces.iter().all(|face| face.len() > 2), "{:?}", mesh.faces);
+            assert!((doubled_area(&mesh) - 4.0).abs() < 1e-12, "{mesh:?}");
+        }
     }
 }

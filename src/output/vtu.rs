@@ -1,11 +1,12 @@
 //! VTK XML unstructured grids (`.vtu`), as ParaView and meshio read them.
 
 use super::number::shortest;
+use super::svg::escape;
 use std::fmt::Write;
 
 /// One named array: one value (or vector) for each point or cell.
 pub struct Field<'a> {
-    /// Name, with its unit.
+    /// Name, with its unit; any text.
     pub name: &'a str,
     /// Numbers a point or cell.
     pub components: usize,
@@ -81,7 +82,8 @@ fn floats(text: &mut String, field: &Field<'_>) {
     let Field { name, components, values } = field;
     let _ = writeln!(
         text,
-        "<DataArray type=\"Float64\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"ascii\">"
+        "<DataArray type=\"Float64\" Name=\"{}\" NumberOfComponents=\"{components}\" format=\"ascii\">",
+        escape(name)
     );
     for entry in values.chunks((*components).max(1)) {
         let numbers: Vec<String> = entry.iter().map(|&v| shortest(v).unwrap_or_else(|| "0".into())).collect();
@@ -100,6 +102,18 @@ fn integers(text: &mut String, kind: &str, name: &str, values: impl Iterator<Ite
 mod tests {
     use super::*;
     use crate::output::sample::square_with_pole;
+
+    #[test]
+    fn names_are_escaped() {
+        let grid = Grid {
+            points: &[[0.0; 3]],
+            cells: &[],
+            point_fields: &[Field { name: "G & \"Q\" <max>_m", components: 1, values: &[1.0] }],
+            cell_fields: &[],
+        };
+        let text = String::from_utf8(vtu(&grid)).unwrap();
+        assert!(text.contains("Name=\"G &amp; &quot;Q&quot; &lt;max&gt;_m\""), "{text}");
+    }
 
     #[test]
     fn panels_with_values() {
