@@ -27,3 +27,10 @@ fn prints_what_a_config_takes() {
     assert_eq!(code, Some(0));
     assert!(resolved.contains("reference = ["));
 }
+
+#[test]
+fn a_number_of_designs_beyond_memory_is_refused() {
+    for designs in ["0", "18446744073709551615"] {
+        assert_eq!(quadrille(&["axes", "--designs", designs]).0, Some(2), "{designs}");
+    }
+}

@@ -183,3 +183,15 @@ fn a_wrong_base_mesh_exits_2_and_names_the_culprit() {
     let missing = quadrille(&["decode", "--base", "no/such.json", "--string", "T"]).assert().code(2);
     assert!(String::from_utf8_lossy(&missing.get_output().stderr).contains("no/such.json"));
 }
+
+#[test]
+fn no_bound_is_too_far_to_look() {
+    // Nothing is left of either mesh after a few deletions, so there is an answer however far one may look.
+    let text = r#"{"vertices": [[0,0,0],[2,0,0],[1,2,0]], "faces": [[0,1,2]], "poles": {"0": 2}}"#;
+    let file = tempfile::NamedTempFile::new().unwrap();
+    std::fs::write(&file, text).unwrap();
+    let base = file.path().to_str().unwrap();
+    let (a, b) = ("Ao", "APTTA*DA*PDA*");
+    let printed = stdout(&["distance", "--base", base, "--a", a, "--b", b, "--max", "18446744073709551615"]);
+    assert!(printed.starts_with("topological  more than 18446744073709551615"), "{printed}");
+}

@@ -20,8 +20,8 @@ pub struct Args {
     #[command(flatten)]
     config: ConfigArgs,
     /// How many designs.
-    #[arg(long, value_name = "N", default_value_t = 1000)]
-    designs: usize,
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    designs: u32,
     /// Threads; 0 = one per core.
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
@@ -34,7 +34,7 @@ const TRIES: usize = 1000;
 pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     let config = args.config.load(&[])?;
     let study = args.config.study(&config)?;
-    let topologies = different(&study, config.run.seed.unwrap_or(0), args.designs);
+    let topologies = different(&study, config.run.seed.unwrap_or(0), args.designs as usize);
     console.note(&format!("evaluating {} random designs", topologies.len()));
     let pool =
         rayon::ThreadPoolBuilder::new().num_threads(args.threads.unwrap_or(config.run.threads)).build();
@@ -55,7 +55,7 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
 fn different(study: &Study, seed: u64, wanted: usize) -> Vec<CanonicalMesh> {
     let mut rng = stream(seed, 0, 0);
     let mut seen = BTreeSet::new();
-    let mut topologies = Vec::with_capacity(wanted);
+    let mut topologies = Vec::new();
     for _ in 0..wanted.saturating_mul(TRIES) {
         if topologies.len() == wanted {
             break;

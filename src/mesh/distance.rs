@@ -29,7 +29,9 @@ pub fn distance(a: &QuadMesh, b: &QuadMesh, equivalence: Equivalence, max: usize
     }
     let mut a = Descent::new(a, equivalence);
     let mut b = Descent::new(b, equivalence);
-    for total in 0..=max {
+    // Every deletion takes a strip away at least, so beyond this nothing is left to delete.
+    let most = a.levels[0].strips.1 + b.levels[0].strips.1;
+    for total in 0..=max.min(most) {
         for i in balanced_first(total) {
             if Descent::meet(&mut a, i, &mut b, total - i) {
                 return Distance::Exactly(total);
