@@ -95,3 +95,18 @@ fn the_culprit_is_named() {
         assert!(parts.iter().all(|part| message.contains(part)), "{parts:?} in\n{message}");
     }
 }
+
+#[test]
+fn every_command_tells_the_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = config(LOOP, "", SURFACE, "{ grid = [2000, 2] }");
+    fs::write(folder.path().join("c.toml"), text).unwrap();
+    for command in ["decode", "evaluate", "skeleton"] {
+        let string = if command == "skeleton" { &[][..] } else { &["--string", ""] };
+        let mut run = Command::cargo_bin("quadrille").unwrap();
+        let output = run.current_dir(folder.path()).args([command, "c.toml"]).args(string).output().unwrap();
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{command}: {message}");
+        assert!(message.contains("c.toml:9: topology.initial"), "{command}: {message}");
+    }
+}

@@ -1,5 +1,4 @@
 //! What goes to stderr, and how much of it.
-#![allow(dead_code, reason = "the first commands use few of these")]
 
 use clap::{ArgAction, Args, ValueEnum};
 use std::io::{self, IsTerminal, Write};

@@ -1,5 +1,4 @@
 //! What can end a command early, and with which exit code.
-#![allow(dead_code, reason = "the first commands use few of these")]
 
 use super::exit;
 use quadrille::config::ConfigError;

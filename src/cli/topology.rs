@@ -1,11 +1,10 @@
 //! Where `decode` and `distance` take their initial mesh and rules from.
 
 use super::CliError;
+use super::config_args::ConfigArgs;
 use clap::ValueEnum;
-use quadrille::config;
 use quadrille::grammar::{Rules, Tokens};
 use quadrille::mesh::{InitialMesh, base_json};
-use quadrille::study::Study;
 use std::path::{Path, PathBuf};
 
 /// A config, or a bare mesh.
@@ -69,8 +68,7 @@ pub fn parse_string(option: &str, text: &str) -> Result<Tokens, CliError> {
 
 /// The initial mesh and the rules of a config.
 fn from_config(file: &Path) -> Result<(InitialMesh, Rules), CliError> {
-    let config = config::load(file, &[])?;
-    let study = Study::new(&config, config::folder_of(file))
-        .map_err(|error| CliError::Input(format!("{}: {error}", file.display())))?;
+    let args = ConfigArgs { config: file.to_path_buf(), set: Vec::new() };
+    let study = args.study(&args.load(&[])?)?;
     Ok((study.initial, study.rules))
 }

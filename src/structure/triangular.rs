@@ -148,7 +148,7 @@ impl Supernode<'_> {
         let rows = self.rows();
         let mut after = self.width;
         while after > 0 {
-            // The same groups as forward: those of four first, then single ones.
+            // The same groups as forward, from the end: what does not fill a group singly, then whole groups.
             let group = if after.is_multiple_of(GROUP) { GROUP } else { 1 };
             let j = after - group;
             let l: [&[f64]; GROUP] = std::array::from_fn(|k| self.column(j + k.min(group - 1)));
