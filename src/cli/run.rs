@@ -27,7 +27,7 @@ use std::time::{Instant, SystemTime};
 /// The folder then holds pareto.csv (the front), history.csv (every evaluated design, and why it failed),
 /// generations.csv (convergence), operators.csv, report.html (open it in a browser), designs/ (each design of the front
 /// as OBJ, COMPAS JSON, SVG, VTU, and CSV of nodes and members), design_explorer/data.csv and manifest.json. A folder that
-/// holds a run is not overwritten without --force.
+/// holds a run, or something else under these names, is not overwritten without --force.
 #[derive(clap::Args)]
 pub struct Args {
     #[command(flatten)]

@@ -194,7 +194,7 @@ mod tests {
             edges: vec![[0, 1], [0, 3], [0, 4], [1, 2], [2, 3], [2, 4]],
             loops: vec![vec![0, 1, 2, 3]],
             corners: Vec::new(),
-            loop_corners: vec![0..0],
+            loop_corners: std::iter::once(0..0).collect(),
             coarse: (0..5).collect(),
             coarse_face: vec![0, 1],
             target_length: 1.0,
