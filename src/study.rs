@@ -3,6 +3,9 @@
 //! A [`Study`] is made once from a config and only read afterwards. It serves the search as its [`Problem`], and the
 //! designer's commands with whole [`Design`]s.
 
+mod remarks;
+mod supports;
+
 use crate::config::Config;
 use crate::domain::{self, Domain, DomainError};
 use crate::evolve::{FAILED, Violation};
@@ -22,9 +25,7 @@ use crate::search::{Evaluation, Identity, Problem, RuleOperator, SearchParams, r
 use crate::skeleton::{self, InitialError};
 use crate::structure::StructureParams;
 use crate::structure::gridshell::{self, AnalysisError, Response};
-use crate::structure::params::Direction;
 use crate::surface::{self, Surface, SurfaceError, SurfaceParams};
-use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -72,6 +73,30 @@ pub enum StudyError {
         /// What is fixed there.
         image_fixed: String,
     },
+    /// A point of a support that the symmetries of the config do not carry into another.
+    #[error(
+        "domain.symmetries: the supports do not have `{symmetry}`: nothing is fixed as near ({x}, {y}) near its image, ({u}, {v})"
+    )]
+    SupportImage {
+        /// The symmetry.
+        symmetry: &'static str,
+        /// The point.
+        x: f64,
+        /// The point.
+        y: f64,
+        /// Its image.
+        u: f64,
+        /// Its image.
+        v: f64,
+    },
+    /// A point of a support that names nothing.
+    #[error("{key}: {reason}")]
+    SupportPoint {
+        /// Its key.
+        key: String,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// There is no initial mesh.
     #[error("{0}")]
     Initial(#[from] InitialError),
@@ -91,7 +116,8 @@ impl StudyError {
                 _ => "surface.kind".to_owned(),
             },
             Self::Domain(error) => error.key(&config.domain),
-            Self::Supports { .. } => "domain.symmetries".to_owned(),
+            Self::Supports { .. } | Self::SupportImage { .. } => "domain.symmetries".to_owned(),
+            Self::SupportPoint { key, .. } => key.clone(),
             Self::Initial(error) => error.key(&config.topology),
             Self::Mesh(_) => "topology.initial".to_owned(),
         }
@@ -146,8 +172,10 @@ impl Study {
         let initial = initial_mesh(config, &domain, base_dir)?;
         let symmetries = domain.symmetries(&config.domain.symmetries)?;
         if let Some(structure) = &config.structure {
-            check_supports(&symmetries, structure)?;
+            supports::check_points(&domain, structure)?;
+            supports::check_symmetries(&domain, &symmetries, structure)?;
         }
+        let symmetries: Vec<Symmetry> = symmetries.into_iter().map(|(_, symmetry)| symmetry).collect();
         let objectives =
             config.objectives.minimise.iter().filter_map(|name| objectives::find(name)).collect();
         Ok(Self {
@@ -173,7 +201,9 @@ impl Study {
         let holds = |kind: &domain::Symmetry| {
             let symmetry = self.domain.symmetry(*kind).ok();
             symmetry.filter(|symmetry| !self.symmetries.contains(symmetry)).is_some_and(|symmetry| {
-                config.structure.as_ref().is_none_or(|params| check_supports(&[symmetry], params).is_ok())
+                config.structure.as_ref().is_none_or(|params| {
+                    supports::check_symmetries(&self.domain, &[(*kind, symmetry)], params).is_ok()
+                })
             })
         };
         domain::Symmetry::ALL.iter().filter(|kind| holds(kind)).map(|kind| kind.name()).collect()
@@ -279,28 +309,6 @@ fn initial_mesh(config: &Config, domain: &Domain, base_dir: &Path) -> Result<Ini
         initial.mesh.blunt(0);
     }
     Ok(initial)
-}
-
-/// Refuses symmetries that carry a loop into one that is supported otherwise. All else of a structure has every symmetry in plan:
-/// loads act evenly and downwards, and supports at the boundary, the corners or everywhere do not tell nodes apart.
-fn check_supports(symmetries: &[Symmetry], structure: &StructureParams) -> Result<(), StudyError> {
-    let fixed = |label: usize| {
-        let here = structure.supports.iter().filter(|support| support.boundary_loop == Some(label));
-        here.flat_map(|support| support.fixed.iter().copied()).collect::<BTreeSet<_>>()
-    };
-    let words = |fixed: &BTreeSet<Direction>| {
-        let names: Vec<String> = fixed.iter().map(|d| format!("{d:?}").to_lowercase()).collect();
-        names.join(", ")
-    };
-    let images = symmetries.iter().flat_map(|symmetry| symmetry.loops.iter().enumerate());
-    for (label, image) in images.map(|(label, &image)| (label, image as usize)) {
-        let (here, there) = (fixed(label), fixed(image));
-        if here != there {
-            let (fixed, image_fixed) = (words(&here), words(&there));
-            return Err(StudyError::Supports { label, fixed, image, image_fixed });
-        }
-    }
-    Ok(())
 }
 
 impl Design {

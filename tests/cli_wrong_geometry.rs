@@ -39,6 +39,7 @@ fn the_culprit_is_named() {
         ("number.obj", "v 1 x 0\nf 1 2 3 4\n"),
         ("winding.obj", "v 5 5 5\nf 1 2 3 4\nf 1 2 5 4\n"),
         ("small.obj", "v 4 10 0\nv 4 0 0\nf 1 6 5 4\n"),
+        ("pole.obj", "v 5 5 0\nf 5 1 2\nf 5 2 3\nf 5 3 4\nf 5 4 1\n"),
     ] {
         fs::write(folder.path().join(name), format!("{square}{end}")).unwrap();
     }
@@ -87,6 +88,10 @@ fn the_culprit_is_named() {
             &["no finite height at (4.", "gives no finite number there"],
         ),
         (from("winding.obj"), &["winding.obj:7", "the winding is inconsistent"]),
+        (
+            from("pole.obj"),
+            &["c.toml:9", "pole.obj:6", "an OBJ file has no place for them", "[topology.initial]"],
+        ),
         (from("small.obj"), &["c.toml:9", "small.obj:2", "vertex 1 belongs to no face"]),
         (from("none.obj"), &["c.toml", "there is no file ./none.obj"]),
     ] {
@@ -109,4 +114,31 @@ fn every_command_tells_the_line() {
         assert_eq!(output.status.code(), Some(2), "{command}: {message}");
         assert!(message.contains("c.toml:9: topology.initial"), "{command}: {message}");
     }
+}
+
+/// What no rule forbids, and what a look at the real sizes shows.
+#[test]
+fn what_is_seldom_meant_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let millimetres = "v -1000 -1000 0\nv 11000 -1000 0\nv 11000 11000 0\nv -1000 11000 0\nf 1 2 3 4\n";
+    fs::write(folder.path().join("mm.obj"), millimetres).unwrap();
+    let surface = |surface: &str, pattern: &str| {
+        let text = config(LOOP, "", surface, INITIAL) + pattern;
+        let (code, stderr) = check(folder.path(), &text);
+        assert_eq!(code, Some(0), "{stderr}");
+        stderr
+    };
+    let mesh = "kind = \"mesh\"\nfile = \"mm.obj\"";
+    assert!(
+        surface(mesh, "")
+            .contains("the mesh is 16971 m across, the domain 14.142136 m: files are read in metres")
+    );
+    // 100 panels of 1 m.
+    let limit = |least: f64| format!("[pattern]\npanels = 100\nlimits = {{ min_edge_m = {least} }}\n");
+    assert!(
+        surface(SURFACE, &limit(0.8))
+            .contains("min_edge_m = 0.8 is 0.80 of the panels' mean side, about 1.000 m")
+    );
+    let quiet = surface(SURFACE, &limit(0.5));
+    assert!(!quiet.contains("min_edge_m") && !quiet.contains("across"), "{quiet}");
 }

@@ -20,8 +20,10 @@ fn reference_is_up_to_date() {
 }
 
 /// Numbers that may be anything finite: places, angles, heights of surfaces, factors, loads, values of objectives.
-const FREE: [&str; 14] = [
+const FREE: [&str; 16] = [
     "mark_m",
+    "nodes_near_m",
+    "sides_near_m",
     "points_m",
     "center_m",
     "rotation_deg",

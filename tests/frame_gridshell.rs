@@ -97,8 +97,8 @@ fn a_roof_without_horizontal_support_is_a_mechanism() {
     let params = StructureParams {
         supports: vec![SupportParams {
             at: Some(SupportPlace::Boundary),
-            boundary_loop: None,
             fixed: vec![Direction::Uz],
+            ..SupportParams::default()
         }],
         ..at_height(0.3)
     };

@@ -4,6 +4,7 @@
 use quadrille::config;
 use quadrille::random::stream;
 use quadrille::search::Problem;
+use quadrille::structure::gridshell::GridshellModel;
 use quadrille::study::{Effort, Study};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -147,6 +148,84 @@ kind = "plane"
         error,
         "domain.symmetries: structure.support fixes [ux, uz] on loop 1 and [uz] on loop 2, its image"
     );
+    let near =
+        |key: &str, points: &str| format!("[[structure.support]]\n{key} = [{points}]\nfixed = ['uz']\n");
+    assert_eq!(two_holes(&near("nodes_near_m", "[0, 0], [20, 0], [10, 10]")), Ok(()));
+    // Any point of a wall names it.
+    assert_eq!(two_holes(&near("sides_near_m", "[0, 4], [20.5, 5.5], [9, 0]")), Ok(()));
+    for lopsided in [near("nodes_near_m", "[0, 0], [20, 1]"), near("sides_near_m", "[0, 4]")] {
+        let error = two_holes(&lopsided).unwrap_err();
+        assert!(error.contains("nothing is fixed as near (0, "), "{error}");
+    }
+}
+
+/// A roof on two of its walls, and on points of the two others.
+#[test]
+fn supports_are_found_by_points_of_the_boundary() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("roof.toml");
+    let write = |support: &str| {
+        let text = format!(
+            r#"
+version = 1
+[[domain.loop]]
+kind = "polyline"
+points_m = [[0, 0], [24, 0], [24, 10], [10, 10], [10, 22], [0, 22]]
+[surface]
+kind = "plane"
+[pattern]
+panels = 100
+[structure]
+order = 1
+[[structure.support]]
+{support}
+fixed = ["ux", "uy", "uz"]
+"#
+        );
+        std::fs::write(&file, text).unwrap();
+        config::load(&file, &[])
+    };
+    let study = |support: &str| {
+        let config = write(support).map_err(|error| error.to_string())?;
+        Study::new(&config, folder.path()).map_err(|error| error.to_string())
+    };
+    let held = |support: &str| {
+        let study = study(support).unwrap();
+        let design = study.develop(study.topology(&"".parse().unwrap()), Effort::Pattern).unwrap();
+        let params = write(support).unwrap().structure.unwrap();
+        let model = GridshellModel::new(&design.pattern, &params, 0.45).unwrap();
+        let at = |node: quadrille::structure::model::NodeId| design.pattern.positions[node.0 as usize];
+        let held = model.frame.supported().map(|node| [at(node)[0], at(node)[1]]);
+        held.collect::<Vec<[f64; 2]>>()
+    };
+
+    let walls = held("sides_near_m = [[12, -0.2], [0, 11]]");
+    assert!(walls.len() > 15 && walls.iter().all(|[x, y]| *x == 0.0 || *y == 0.0), "{walls:?}");
+    for end in [[24.0, 0.0], [0.0, 0.0], [0.0, 22.0]] {
+        assert!(walls.contains(&end), "{end:?}");
+    }
+    let mut corners = held("nodes_near_m = [[24, 10], [10, 9.9]]");
+    corners.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    assert_eq!(corners, [[10.0, 10.0], [24.0, 10.0]]);
+
+    for (support, words) in [
+        (
+            "sides_near_m = [[0, 0]]",
+            "structure.support[0].sides_near_m[0]: found [0, 0], about as close to one side",
+        ),
+        (
+            "nodes_near_m = [[0, 0], [24000, 0]]",
+            "structure.support[0].nodes_near_m[1]: found [24000, 0], 23976.000 m from",
+        ),
+        (
+            "at = 'corners'\nnodes_near_m = [[0, 0]]",
+            "found beside `at`; allowed: either `at` or `nodes_near_m`",
+        ),
+        ("sides_near_m = []", "structure.support[0].sides_near_m"),
+    ] {
+        let error = study(support).err().unwrap();
+        assert!(error.contains(words), "{error}");
+    }
 }
 
 /// Linear solves alone crowd panels against the holes: angles of 2° and edges of 2 % of the target length.

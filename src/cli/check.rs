@@ -20,7 +20,7 @@ pub struct Args {
 pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     let config = args.config.load(&[])?;
     let study = args.config.study(&config)?;
-    for warning in config::warnings(&config) {
+    for warning in config::warnings(&config).into_iter().chain(study.warnings()) {
         console.warn(&warning);
     }
     outln!("# {}: what this config means", args.config.config.display());

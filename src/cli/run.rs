@@ -66,6 +66,9 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     let mut config = args.config.load(&args.sets())?;
     let study = args.config.study(&config)?;
     let folder = args.open_folder(&config)?;
+    for warning in study.warnings() {
+        console.warn(&warning);
+    }
     fix_seed(&mut config, &folder, args.resume, console)?;
     let record =
         results::record(&config, args.config.folder()).map_err(|e| CliError::Input(e.to_string()))?;

@@ -5,7 +5,7 @@ use crate::domain::params::{CornerRule, Corners, LoopParams};
 use crate::geometry::params::{Density, InitialMesh, PatternParams};
 use crate::structure::params::{
     Direction, HeightParams, LoadParams, Quantity, RequirementParams, SectionParams, StructureParams,
-    SupportParams, SupportPlace,
+    SupportNodes, SupportParams, SupportPlace,
 };
 use crate::surface::params::SurfaceParams;
 
@@ -198,12 +198,19 @@ fn millimetres(metres: f64) -> f64 {
 }
 
 fn describe_support(support: &SupportParams) -> String {
-    let place = match (support.at, support.boundary_loop) {
-        (Some(SupportPlace::Boundary), _) => "all boundary nodes".into(),
-        (Some(SupportPlace::Corners), _) => "corners of the outer boundary".into(),
-        (Some(SupportPlace::All), _) => "all nodes".into(),
-        (None, k) => format!("nodes of boundary loop {}", k.unwrap_or(0)),
+    let near = |points: &[[f64; 2]]| {
+        let points: Vec<String> = points.iter().map(|[x, y]| format!("({x} m, {y} m)")).collect();
+        points.join(", ")
     };
+    let places = support.nodes().into_iter().map(|(_, nodes)| match nodes {
+        SupportNodes::Place(SupportPlace::Boundary) => "all boundary nodes".into(),
+        SupportNodes::Place(SupportPlace::Corners) => "corners of the outer boundary".into(),
+        SupportNodes::Place(SupportPlace::All) => "all nodes".into(),
+        SupportNodes::Loop(k) => format!("nodes of boundary loop {k}"),
+        SupportNodes::NodesNear(points) => format!("boundary nodes closest to {}", near(points)),
+        SupportNodes::SidesNear(points) => format!("nodes of the sides closest to {}", near(points)),
+    });
+    let place = places.collect::<Vec<String>>().join(" and ");
     let fixed: Vec<&str> = support.fixed.iter().map(|direction| name_of(*direction)).collect();
     format!("support: {place} fixed in {}", fixed.join(", "))
 }

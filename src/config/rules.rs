@@ -9,7 +9,7 @@ use crate::geometry::params::{Density, InitialMesh};
 use crate::grammar::Tokens;
 use crate::objectives::{self, METRICS};
 use crate::structure::params::{
-    HeightParams, Quantity, RequirementParams, SectionParams, StructureParams, SupportParams,
+    HeightParams, Quantity, RequirementParams, SectionParams, StructureParams, SupportNodes, SupportParams,
 };
 use crate::surface::params::SurfaceParams;
 use std::collections::BTreeMap;
@@ -222,16 +222,17 @@ impl Rules<'_> {
     }
 
     fn support(&mut self, support: &SupportParams, loops: usize, key: &KeyPath) {
-        match (support.at, support.boundary_loop) {
-            (None, None) => {
-                let message =
-                    "missing; allowed: \"boundary\", \"corners\", \"all\", or loop = 0, 1, … instead";
+        match support.nodes().as_slice() {
+            [] => {
+                let message = "missing; allowed: \"boundary\", \"corners\", \"all\", or instead loop = 0, 1, …, \
+                               nodes_near_m or sides_near_m = [[x, y], …]";
                 self.refuse(key.key("at"), message);
             }
-            (Some(_), Some(_)) => {
-                self.refuse(key.key("loop"), "found beside `at`; allowed: either `at` or `loop`")
+            [(first, _), (second, _), ..] => {
+                let message = format!("found beside `{first}`; allowed: either `{first}` or `{second}`");
+                self.refuse(key.key(*second), message);
             }
-            (None, Some(k)) if k >= loops => {
+            [(_, SupportNodes::Loop(k))] if *k >= loops => {
                 let message = format!("found {k}; allowed: 0 to {}", loops.saturating_sub(1));
                 self.refuse(key.key("loop"), message);
             }

@@ -6,11 +6,13 @@ mod curve;
 mod error;
 pub mod params;
 mod read;
+mod side;
 mod symmetry;
 
 pub use boundary::{BoundaryLoop, Stretch};
 pub use error::DomainError;
 pub use params::{Corners, DomainParams, LoopParams, Symmetry};
+pub use side::Side;
 
 use crate::surface::Surface;
 use std::path::Path;

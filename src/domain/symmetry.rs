@@ -33,13 +33,13 @@ impl Domain {
     ///
     /// # Errors
     /// A symmetry that boundary or surface do not have, and what has no image.
-    pub fn symmetries(&self, wanted: &[Kind]) -> Result<Vec<Symmetry>, DomainError> {
+    pub fn symmetries(&self, wanted: &[Kind]) -> Result<Vec<(Kind, Symmetry)>, DomainError> {
         let has = |kind| wanted.contains(&kind);
         let pairs = Kind::ALL.into_iter().filter(|&k| has(k)).count();
         Kind::ALL
             .into_iter()
             .filter(|&kind| has(kind) || pairs >= 2)
-            .map(|kind| self.symmetry(kind))
+            .map(|kind| Ok((kind, self.symmetry(kind)?)))
             .collect()
     }
 
@@ -67,7 +67,7 @@ impl Domain {
         Ok(Symmetry { loops, corners, reversed: kind != Kind::Rotate180 })
     }
 
-    fn image(&self, [x, y, z]: [f64; 3], kind: Kind) -> [f64; 3] {
+    pub(super) fn image(&self, [x, y, z]: [f64; 3], kind: Kind) -> [f64; 3] {
         let [low, high] = self.bounds();
         let [sx, sy] = kind.signs();
         let [cx, cy] = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];

@@ -151,7 +151,14 @@ pub fn read(file: &Path) -> Result<BaseMesh, ReadError> {
         InitialMesh::from_base(&base).map_err(|error| {
             let at_face = error.face().and_then(|face| obj.face_lines.get(face));
             let line = at_face.or_else(|| error.vertex().and_then(|vertex| obj.vertex_lines.get(vertex)));
-            let reason = format!("{error} (vertices and faces counted from 0)");
+            let where_poles_go = match error {
+                BaseMeshError::TriangleWithoutPole { .. } => {
+                    "; an OBJ file has no place for them: give the mesh as base mesh JSON, or by vertices, faces and poles in \
+                     [topology.initial]"
+                }
+                _ => "",
+            };
+            let reason = format!("{error}{where_poles_go} (vertices and faces counted from 0)");
             match line {
                 Some(&line) => ReadError::Line { file: file.to_owned(), line, reason },
                 None => content(reason),
@@ -166,7 +173,12 @@ pub fn read(file: &Path) -> Result<BaseMesh, ReadError> {
         }
         _ => (base_json::read(&text).map_err(|e| content(e.to_string()))?, ""),
     };
-    InitialMesh::from_base(&base).map_err(|error| content(format!("{error}{counted}")))?;
+    InitialMesh::from_base(&base).map_err(|error| match error {
+        BaseMeshError::TriangleWithoutPole { .. } if !counted.is_empty() => {
+            content(format!("{error}, which a COMPAS mesh has as its attribute `face_pole`{counted}"))
+        }
+        error => content(format!("{error}{counted}")),
+    })?;
     Ok(base)
 }
 

@@ -233,19 +233,53 @@ pub struct ExcludeParams {
 }
 
 /// One support rule.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SupportParams {
-    /// `"boundary"`: all boundary nodes; `"corners"`: the corners of loop 0; `"all"`: every node. Or give `loop`.
+    /// `"boundary"`: all boundary nodes; `"corners"`: the corners of loop 0; `"all"`: every node. Or give `loop`, `nodes_near_m` or
+    /// `sides_near_m`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-instead" = "loop = 0, 1, … instead of at"))]
+    #[schemars(extend("x-instead" = "loop = 0, 1, … instead of at, or nodes_near_m, or sides_near_m"))]
     pub at: Option<SupportPlace>,
     /// All nodes of this boundary loop, from 0.
     #[serde(default, rename = "loop", skip_serializing_if = "Option::is_none")]
     pub boundary_loop: Option<usize>,
+    /// For each of these points `[x, y]`, in metres, the boundary node closest to it in plan: at a corner the corner itself.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("minItems" = 1))]
+    pub nodes_near_m: Option<Vec<[f64; 2]>>,
+    /// For each of these points `[x, y]`, in metres, all nodes of the side closest to it in plan; a side is the stretch of a loop from
+    /// one corner to the next, both included, or the whole of a loop with fewer than two corners.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("minItems" = 1))]
+    pub sides_near_m: Option<Vec<[f64; 2]>>,
     /// What is fixed: of `ux`, `uy`, `uz`, `rx`, `ry`, `rz`.
     #[schemars(extend("minItems" = 1))]
     pub fixed: Vec<Direction>,
+}
+
+/// Where one support rule holds: what its keys say.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SupportNodes<'a> {
+    /// A place that every pattern has.
+    Place(SupportPlace),
+    /// All nodes of a boundary loop.
+    Loop(usize),
+    /// The boundary nodes closest to points in plan, m.
+    NodesNear(&'a [[f64; 2]]),
+    /// The sides closest to points in plan, m.
+    SidesNear(&'a [[f64; 2]]),
+}
+
+impl SupportParams {
+    /// What the rule's keys name, each by its key: just one in a config that was checked.
+    pub fn nodes(&self) -> Vec<(&'static str, SupportNodes<'_>)> {
+        let at = self.at.map(|place| ("at", SupportNodes::Place(place)));
+        let label = self.boundary_loop.map(|k| ("loop", SupportNodes::Loop(k)));
+        let nodes = self.nodes_near_m.as_ref().map(|p| ("nodes_near_m", SupportNodes::NodesNear(p)));
+        let sides = self.sides_near_m.as_ref().map(|p| ("sides_near_m", SupportNodes::SidesNear(p)));
+        [at, label, nodes, sides].into_iter().flatten().collect()
+    }
 }
 
 /// Where a support is.
@@ -369,8 +403,8 @@ mod defaults {
     pub fn supports() -> Vec<SupportParams> {
         let support = |at, fixed: &[Direction]| SupportParams {
             at: Some(at),
-            boundary_loop: None,
             fixed: fixed.to_vec(),
+            ..SupportParams::default()
         };
         vec![
             support(SupportPlace::Boundary, &[Direction::Uz]),

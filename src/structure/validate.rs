@@ -168,12 +168,16 @@ fn wall(problems: &mut Problems, key: &str, value: f64, thickness: f64) {
 
 fn check_support(problems: &mut Problems, i: usize, support: &SupportParams) {
     let key = |name: &str| format!("support[{i}].{name}");
-    match (support.at, support.boundary_loop) {
-        (Some(_), Some(_)) => problems.push((key("loop"), "give either at or loop, not both".into())),
-        (None, None) => {
-            problems.push((key("at"), "give at = \"boundary\", \"corners\" or \"all\", or loop = k".into()));
+    match support.nodes().as_slice() {
+        [_] => {}
+        [] => {
+            let message =
+                "give at = \"boundary\", \"corners\" or \"all\", or loop = k, nodes_near_m or sides_near_m";
+            problems.push((key("at"), message.into()));
         }
-        _ => {}
+        [(first, _), (second, _), ..] => {
+            problems.push((key(second), format!("give either {first} or {second}, not both")));
+        }
     }
     if support.fixed.is_empty() {
         problems.push((key("fixed"), "name at least one of ux, uy, uz, rx, ry, rz".into()));

@@ -119,6 +119,10 @@ impl Surface for MeshSurface {
         format!("the mesh lies within x {x0} to {x1}, y {y0} to {y1}{hint}")
     }
 
+    fn bounds(&self) -> Option<[[f64; 2]; 2]> {
+        Some(self.bounds)
+    }
+
     fn is_smooth(&self) -> bool {
         false
     }

@@ -60,6 +60,11 @@ pub trait Surface: Send + Sync {
     /// In words, where the surface exists: for the message that it does not cover the domain.
     fn extent(&self) -> String;
 
+    /// Smallest and largest x and y, m, of a surface that has a rim of its own.
+    fn bounds(&self) -> Option<[[f64; 2]; 2]> {
+        None
+    }
+
     /// Whether its normal varies smoothly; not so on facets.
     fn is_smooth(&self) -> bool {
         true

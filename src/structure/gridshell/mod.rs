@@ -9,6 +9,7 @@ mod metrics;
 mod model;
 mod panels;
 mod sizing;
+mod supports;
 
 pub use evaluate::CombinationResult;
 pub use metrics::Metrics;

@@ -2,11 +2,10 @@
 
 use super::AnalysisError;
 use super::panels::Panels;
+use super::supports::supports;
 use crate::geometry::pattern::Pattern;
-use crate::structure::model::{FrameModel, FrameParts, LoadCase, Material, Member, NodalLoad, Support};
-use crate::structure::params::{
-    Direction, ElementsPerMember, LoadParams, StructureParams, SupportParams, SupportPlace,
-};
+use crate::structure::model::{FrameModel, FrameParts, LoadCase, Material, Member, NodalLoad};
+use crate::structure::params::{ElementsPerMember, LoadParams, StructureParams};
 use crate::structure::section::Section;
 use nalgebra::Vector3;
 
@@ -112,33 +111,8 @@ fn pieces(rule: ElementsPerMember, length: f64, target: f64) -> Result<u32, Anal
     }
 }
 
-fn supports(pattern: &Pattern, rules: &[SupportParams]) -> Result<Vec<Support>, AnalysisError> {
-    let mut supports = Vec::new();
-    for rule in rules {
-        let nodes: Vec<u32> = match (rule.at, rule.boundary_loop) {
-            (Some(SupportPlace::Boundary), _) => pattern.loops.iter().flatten().copied().collect(),
-            (Some(SupportPlace::Corners), _) => outer_corners(pattern).to_vec(),
-            (Some(SupportPlace::All), _) => (0..pattern.positions.len() as u32).collect(),
-            (None, Some(k)) => match pattern.loops.get(k) {
-                Some(vertices) => vertices.clone(),
-                None => return Err(AnalysisError::NoSuchLoop { index: k, loops: pattern.loops.len() }),
-            },
-            (None, None) => Vec::new(),
-        };
-        let mut fixed = [false; 6];
-        for direction in &rule.fixed {
-            fixed[*direction as usize] = true;
-        }
-        supports.extend(nodes.into_iter().map(|node| Support { node, fixed }));
-    }
-    Ok(supports)
-}
-
-// `fixed[direction as usize]` above counts on this order.
-const _: () = assert!(Direction::Ux as usize == 0 && Direction::Rz as usize == 5);
-
 /// The vertices at the corners of loop 0.
-fn outer_corners(pattern: &Pattern) -> &[u32] {
+pub(super) fn outer_corners(pattern: &Pattern) -> &[u32] {
     pattern.loop_corners.first().and_then(|range| pattern.corners.get(range.clone())).unwrap_or(&[])
 }
 
