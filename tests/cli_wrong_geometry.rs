@@ -139,6 +139,12 @@ fn what_is_seldom_meant_is_told() {
         surface(SURFACE, &limit(0.8))
             .contains("min_edge_m = 0.8 is 0.80 of the panels' mean side, about 1.000 m")
     );
+    let support = "[structure]\nsupport = [{ at = 'corners', fixed = ['ux'] }, { at = 'boundary', fixed = ['uz', 'rx'] }]\n";
+    assert!(
+        surface(SURFACE, support)
+            .contains("structure.support: nothing fixes uy: every design is a mechanism")
+    );
+    assert!(!surface(SURFACE, "[structure]\n").contains("mechanism"));
     let quiet = surface(SURFACE, &limit(0.5));
     assert!(!quiet.contains("min_edge_m") && !quiet.contains("across"), "{quiet}");
 }

@@ -1,7 +1,8 @@
-//! What is allowed, but shows its fault only beside the real sizes of domain and surface.
+//! What is allowed, but would make a run worthless, as the real sizes of domain and surface and all supports together show.
 
 use super::Study;
 use crate::geometry::params::Density;
+use crate::structure::params::Direction;
 
 /// A surface this much larger than the domain is more likely in another unit.
 const VAST: f64 = 20.0;
@@ -11,7 +12,19 @@ const LONG: f64 = 0.6;
 impl Study {
     /// Things that are allowed but seldom meant, in words.
     pub fn warnings(&self) -> Vec<String> {
-        [self.vast_surface(), self.long_members()].into_iter().flatten().collect()
+        [self.free_directions(), self.vast_surface(), self.long_members()].into_iter().flatten().collect()
+    }
+
+    /// Directions that no support holds.
+    fn free_directions(&self) -> Option<String> {
+        let supports = &self.structure.as_ref()?.supports;
+        let is_free =
+            |direction: &Direction| supports.iter().all(|support| !support.fixed.contains(direction));
+        let free = [Direction::Ux, Direction::Uy, Direction::Uz].into_iter().filter(is_free);
+        let names: Vec<String> = free.map(|direction| format!("{direction:?}").to_lowercase()).collect();
+        (!names.is_empty()).then(|| {
+            format!("structure.support: nothing fixes {}: every design is a mechanism", names.join(", "))
+        })
     }
 
     fn vast_surface(&self) -> Option<String> {
