@@ -97,6 +97,16 @@ fn strings_come_from_any_spreadsheet() {
         fs::write(folder.join("s.csv"), text).unwrap();
         refused(folder, &["evaluate", &ci, "--strings", "s.csv"], words);
     }
+    for (bytes, words) in [
+        (
+            &b"string,note\nTPD,gut\nTPP,sch\xf6n\n"[..],
+            "s.csv: line 3: not in UTF-8; save the table as \"CSV UTF-8\"",
+        ),
+        (b"\xff\xfes\0t\0r\0", "s.csv: line 1: not in UTF-8"),
+    ] {
+        fs::write(folder.join("s.csv"), bytes).unwrap();
+        refused(folder, &["evaluate", &ci, "--strings", "s.csv"], words);
+    }
     refused(folder, &["evaluate", &ci], "--string S or --strings FILE.csv");
 }
 

@@ -74,6 +74,10 @@ fn read_strings(file: &Path) -> Result<Vec<(String, Tokens)>, CliError> {
     let wrong = |message: String| CliError::Input(format!("{}: {message}", file.display()));
     let bytes = std::fs::read(file).map_err(CliError::read(file))?;
     let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(&bytes);
+    if let Err(error) = std::str::from_utf8(bytes) {
+        let line = 1 + bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count();
+        return Err(wrong(format!("line {line}: not in UTF-8; save the table as \"CSV UTF-8\"")));
+    }
     // As spreadsheets of countries with a decimal comma write it.
     let first_line = bytes.split(|&byte| byte == b'\n').next().unwrap_or_default();
     let delimiter = if first_line.contains(&b';') && !first_line.contains(&b',') { b';' } else { b',' };
