@@ -31,6 +31,11 @@ fn places_that_cannot_be_written_are_refused_before_anything_is_evaluated() {
     fs::write(folder.join("afile"), "").unwrap();
     refused(folder, &["run", &ci, "--out", "afile"], "--out afile: a file; allowed: a folder");
     refused(folder, &["run", &ci, "--out", "afile/x"], "afile/x");
+    let evaluate = ["evaluate", &ci, "--string", "", "--out", "afile"];
+    let export = ["export", "done", "--design", "0", "--format", "obj", "--out", "afile"];
+    for arguments in [&evaluate[..], &export[..], &["man", "--out", "afile"]] {
+        refused(folder, arguments, "--out afile: a file; allowed: a folder");
+    }
     refused(folder, &["init", "a/b"], "there is no folder a");
     refused(folder, &["init", ""], "found the name \"\"");
     refused(folder, &["init", "--", "-x"], "found the name \"-x\"");

@@ -3,6 +3,8 @@
 use super::compare::Comparison;
 use super::config_args::ConfigArgs;
 use super::deviations::Deviations;
+use super::folder_args::refuse_file;
+use super::topology::parse_string;
 use super::{CliError, Console};
 use quadrille::grammar::Tokens;
 use quadrille::output::atomic;
@@ -37,7 +39,7 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     let config = args.config.load(&[])?;
     let mut named: Vec<(String, Tokens)> = Vec::new();
     for text in &args.string {
-        named.push((text.clone(), parse("--string", text)?));
+        named.push((text.clone(), parse_string("--string", text)?));
     }
     if let Some(file) = &args.strings {
         named.extend(read_strings(file)?);
@@ -45,6 +47,7 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
         return Err(CliError::Input("no string to evaluate; give --string S or --strings FILE.csv".into()));
     }
     if let Some(folder) = &args.out {
+        refuse_file(folder)?;
         refuse_results(folder)?;
     }
     let study = args.config.study(&config)?;
@@ -63,11 +66,6 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
         }
     }
     Ok(ExitCode::SUCCESS)
-}
-
-/// A string, or what is wrong with it and where.
-pub fn parse(place: &str, text: &str) -> Result<Tokens, CliError> {
-    text.parse().map_err(|error| CliError::Input(format!("{place} \"{text}\": {error}")))
 }
 
 fn read_strings(file: &Path) -> Result<Vec<(String, Tokens)>, CliError> {
@@ -96,7 +94,7 @@ fn read_strings(file: &Path) -> Result<Vec<(String, Tokens)>, CliError> {
         let line = record.position().map_or(0, csv::Position::line);
         let text = record.get(strings).unwrap_or_default();
         let name = column("name").and_then(|index| record.get(index)).filter(|name| !name.is_empty());
-        let tokens = parse(&format!("{}:{line}:", file.display()), text)?;
+        let tokens = parse_string(&format!("{}:{line}:", file.display()), text)?;
         named.push((name.unwrap_or(text).to_owned(), tokens));
     }
     match named.is_empty() {

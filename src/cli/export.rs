@@ -1,6 +1,6 @@
 //! `quadrille export`: a design again, in another format.
 
-use super::folder_args::{find, open};
+use super::folder_args::{find, open, refuse_file};
 use super::stdout::print_result;
 use super::{CliError, Console};
 use clap::ValueEnum;
@@ -65,6 +65,7 @@ enum Operator {
 
 /// Makes the design and writes it.
 pub fn run(args: Args, _console: &Console) -> Result<ExitCode, CliError> {
+    args.out.as_deref().map_or(Ok(()), refuse_file)?;
     let (loaded, study) = open(&args.folder)?;
     let row = find(&loaded, &args.design)?;
     let id = id(row.code);

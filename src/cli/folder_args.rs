@@ -1,4 +1,4 @@
-//! A results folder as an argument, read back.
+//! A folder as an argument: one to write into, or a results folder, read back.
 
 use super::CliError;
 use quadrille::grammar::Tokens;
@@ -8,6 +8,14 @@ use quadrille::output::load::{Loaded, load};
 use quadrille::search::EvaluatedRow;
 use quadrille::study::Study;
 use std::path::Path;
+
+/// Refuses an --out that is a file, before anything is done for it.
+pub fn refuse_file(out: &Path) -> Result<(), CliError> {
+    match out.is_file() {
+        true => Err(CliError::Input(format!("--out {}: a file; allowed: a folder", out.display()))),
+        false => Ok(()),
+    }
+}
 
 /// Reads a results folder and makes its config ready.
 pub fn open(folder: &Path) -> Result<(Loaded, Study), CliError> {

@@ -1,5 +1,6 @@
 //! `quadrille man`: the manual pages.
 
+use super::folder_args::refuse_file;
 use super::stdout::print_result;
 use super::{CliError, help};
 use clap::CommandFactory;
@@ -27,6 +28,7 @@ pub fn run<C: CommandFactory>(args: Args) -> Result<ExitCode, CliError> {
         print_result(page(command)?)?;
         return Ok(ExitCode::SUCCESS);
     };
+    refuse_file(&folder)?;
     std::fs::create_dir_all(&folder).map_err(CliError::write(&folder))?;
     let subcommands: Vec<_> = command.get_subcommands().filter(|c| c.get_name() != "help").cloned().collect();
     for command in [command].into_iter().chain(subcommands) {

@@ -2,7 +2,7 @@
 
 use super::compare::Comparison;
 use super::config_args::ConfigArgs;
-use super::evaluate::parse;
+use super::topology::parse_string;
 use super::{CliError, Console};
 use quadrille::objectives::Metric;
 use quadrille::output::atomic;
@@ -41,7 +41,7 @@ const LISTED: usize = 5;
 /// Evaluates and ranks.
 pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     let config = args.config.load(&[])?;
-    let tokens = parse("--string", &args.string)?;
+    let tokens = parse_string("--string", &args.string)?;
     if let Some(path) = &args.out {
         writable(path)?;
     }

@@ -1,6 +1,7 @@
 //! `quadrille run`: evolve, and write the front and all else.
 
 use super::config_args::ConfigArgs;
+use super::folder_args::refuse_file;
 use super::progress::{Display, duration};
 use super::quote::quote;
 use super::{CliError, Console, exit, obstacles};
@@ -115,9 +116,7 @@ impl Args {
             (_, true) => Opening::Overwrite,
             _ => Opening::New,
         };
-        if path.is_file() {
-            return Err(CliError::Input(format!("--out {}: a file; allowed: a folder", path.display())));
-        }
+        refuse_file(&path)?;
         Folder::open(&path, opening).map_err(|error| match error {
             FolderError::Io { ref source, .. } if source.kind() == ErrorKind::StorageFull => {
                 CliError::Failed(error.to_string())

@@ -61,9 +61,9 @@ fn read_base(file: &Path) -> Result<InitialMesh, CliError> {
     InitialMesh::from_base(&base).map_err(|error| wrong(error.to_string()))
 }
 
-/// Parses a string given as an argument.
-pub fn parse_string(option: &str, text: &str) -> Result<Tokens, CliError> {
-    text.parse().map_err(|error| CliError::Input(format!("{option} {text:?}: {error}")))
+/// A string, or what is wrong with it and where it was given: by which option, or in which line of a file.
+pub fn parse_string(place: &str, text: &str) -> Result<Tokens, CliError> {
+    text.parse().map_err(|error| CliError::Input(format!("{place} {text:?}: {error}")))
 }
 
 /// The initial mesh and the rules of a config.
