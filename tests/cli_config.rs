@@ -173,6 +173,8 @@ fn set_is_checked_alike() {
             "structure.elements_per_member=5000000000",
             "found 5000000000; allowed: a whole number ≥ 1 and ≤ 100",
         ),
+        ("search.population=1000000000000", "allowed: a whole number ≥ 2 and ≤ 1000000"),
+        ("search.rules.drop_last=0.9", "found shares that add up to 1.55; allowed: at most 1"),
         ("pattern.max_faces=100000000000", "found 100000000000; allowed: a whole number ≥ 1 and ≤ 10000000"),
     ] {
         let (stderr, code) = run(&configs, &["check", "dome.toml", "--set", set]);

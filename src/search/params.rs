@@ -23,7 +23,7 @@ pub struct ObjectivesParams {
 #[serde(deny_unknown_fields, default)]
 pub struct SearchParams {
     /// Population size μ.
-    #[schemars(extend("minimum" = 2))]
+    #[schemars(extend("minimum" = 2, "maximum" = 1_000_000))]
     pub population: usize,
     /// Number of generations.
     pub generations: u32,
@@ -213,6 +213,7 @@ pub struct DuplicateParams {
     /// What "the same" means.
     pub equivalence: EquivalenceParams,
     /// How often a child is bred anew before a random string takes its place.
+    #[schemars(extend("maximum" = 1_000_000))]
     pub tries: u32,
 }
 
