@@ -35,7 +35,7 @@ use quadrille::mesh::canonical::Code;
 use quadrille::objectives::{METRICS, Metric};
 use quadrille::random::Rng;
 use quadrille::search::{
-    Evaluation, Identity, Normalisation, Outcome, Problem, RuleOperator, Settings, Silent, StopFlag,
+    Evaluation, Identity, Normalisation, Outcome, Preview, Problem, RuleOperator, Settings, Silent, StopFlag,
     ThreadServer, operators, quantile, run,
 };
 use quadrille::study::Study;
@@ -86,9 +86,13 @@ impl Cache {
         Ok(Self { known: Mutex::new(known), file: Some(Mutex::new(file)) })
     }
 
+    fn look_up(&self, code: Code) -> Option<Evaluation> {
+        self.known.lock().expect("lock").get(&code).cloned()
+    }
+
     fn get(&self, code: Code, evaluate: impl FnOnce() -> Evaluation) -> Evaluation {
-        if let Some(known) = self.known.lock().expect("lock").get(&code) {
-            return known.clone();
+        if let Some(known) = self.look_up(code) {
+            return known;
         }
         let evaluation = evaluate();
         if let Some(file) = &self.file {
@@ -121,6 +125,20 @@ impl Problem for Shared<'_> {
             self.objectives.iter().map(|&m| evaluation.metrics.get(m).copied().flatten()).collect();
         evaluation.objectives = objectives.unwrap_or_default();
         evaluation
+    }
+
+    fn has_preview(&self) -> bool {
+        self.study.has_preview()
+    }
+
+    fn preview(&self, tokens: &Tokens) -> Preview {
+        let known = self.cache.look_up(self.study.topology(tokens).code);
+        // Of an analysed design that fails, it is not kept by what.
+        let Some(known) = known.filter(|e| !e.structural || e.violation.is_feasible()) else {
+            return self.study.preview(tokens);
+        };
+        let value = |&m: &usize| known.metrics.get(m).copied().flatten().filter(|_| !METRICS[m].structural);
+        Preview { violation: known.violation, objectives: self.objectives.iter().map(value).collect() }
     }
 
     fn random(&self, rng: &mut Rng) -> Tokens {

@@ -21,7 +21,7 @@ use crate::objectives::{self, AnalysedDesign, METRICS, Metric};
 use crate::random::Rng;
 use crate::search::operators::{Growth, Reach};
 use crate::search::params::EquivalenceParams;
-use crate::search::{Evaluation, Identity, Problem, RuleOperator, SearchParams, round_significant};
+use crate::search::{Evaluation, Identity, Preview, Problem, RuleOperator, SearchParams, round_significant};
 use crate::skeleton::{self, InitialError};
 use crate::structure::StructureParams;
 use crate::structure::gridshell::{self, AnalysisError, Response};
@@ -254,7 +254,7 @@ impl Study {
             self.objectives.iter().filter_map(|objective| (objective.value)(&analysed)).collect();
         let (measure, reason) = design.excess();
         Evaluation {
-            violation: if measure > 0.0 { Violation::new(1, measure) } else { Violation::NONE },
+            violation: stage_1(measure),
             reason,
             objectives: if objectives.len() == self.objectives.len() { objectives } else { Vec::new() },
             metrics,
@@ -326,6 +326,11 @@ impl Design {
     }
 }
 
+/// The violation of limits and requirements that are exceeded by this much together.
+fn stage_1(excess: f64) -> Violation {
+    if excess > 0.0 { Violation::new(1, excess) } else { Violation::NONE }
+}
+
 impl Problem for Study {
     fn identify(&self, tokens: &Tokens) -> Identity {
         let decoded = self.decode(tokens);
@@ -346,6 +351,25 @@ impl Problem for Study {
         // What everything is compared with gets every number, whatever limit it exceeds.
         let effort = if topology.code == self.baseline { Effort::Everything } else { Effort::Promising };
         self.evaluate_topology(topology, effort)
+    }
+
+    fn has_preview(&self) -> bool {
+        let structural = self.objectives.iter().filter(|objective| objective.structural).count();
+        self.structure.is_some() && (1..self.objectives.len()).contains(&structural)
+    }
+
+    fn preview(&self, tokens: &Tokens) -> Preview {
+        let design = match self.develop(self.topology(tokens), Effort::Pattern) {
+            Ok(design) => design,
+            Err(failure) => return Preview::unknown(failure.violation),
+        };
+        let analysed =
+            AnalysedDesign { topology: &design.topology, fabrication: &design.fabrication, response: None };
+        let value = |objective: &&Metric| (objective.value)(&analysed).map(round_significant);
+        Preview {
+            violation: stage_1(design.excess().0),
+            objectives: self.objectives.iter().map(value).collect(),
+        }
     }
 
     fn random(&self, rng: &mut Rng) -> Tokens {

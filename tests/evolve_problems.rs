@@ -6,7 +6,10 @@
 
 use std::f64::consts::PI;
 
-use quadrille::evolve::{Fitness, Violation, hypervolume, standings, survive, tournament};
+use quadrille::evolve::{
+    Fitness, SampledHypervolume, Violation, hypervolume, standings, survive, survive_by_contribution,
+    tournament,
+};
 use quadrille::random::{Rng, chance, stream, unit};
 use serde::Deserialize;
 
@@ -96,11 +99,18 @@ fn polynomial_mutation(x: &mut [f64], eta: f64, rng: &mut Rng) {
     }
 }
 
-fn nsga2(row: &Row, population: usize, generations: u32, seed: u64) -> f64 {
-    let fitness = |x: &Vec<f64>| Fitness::new(Violation::NONE, evaluate(&row.problem, x));
+/// The last population.
+fn nsga2(
+    evaluate: impl Fn(&[f64]) -> Vec<f64>,
+    variables: usize,
+    (population, generations): (usize, u32),
+    survive: impl Fn(&[Fitness], usize) -> Vec<usize>,
+    seed: u64,
+) -> Vec<Fitness> {
+    let fitness = |x: &Vec<f64>| Fitness::new(Violation::NONE, evaluate(x));
     let mut rng = stream(seed, 0, 0);
     let mut genes: Vec<Vec<f64>> =
-        (0..population).map(|_| (0..row.variables).map(|_| unit(&mut rng)).collect()).collect();
+        (0..population).map(|_| (0..variables).map(|_| unit(&mut rng)).collect()).collect();
     let mut fits: Vec<Fitness> = genes.iter().map(fitness).collect();
     for _ in 1..generations {
         let standings = standings(&fits);
@@ -124,6 +134,40 @@ fn nsga2(row: &Row, population: usize, generations: u32, seed: u64) -> f64 {
         genes = survivors.iter().map(|&i| genes[i].clone()).collect();
         fits = survivors.iter().map(|&i| fits[i].clone()).collect();
     }
+    fits
+}
+
+/// DTLZ2 with any number of objectives, the last variables being its distance.
+fn dtlz2(objectives: usize, x: &[f64]) -> Vec<f64> {
+    let (angles, rest) = x.split_at(objectives - 1);
+    let radius = 1.0 + rest.iter().map(|x| (x - 0.5).powi(2)).sum::<f64>();
+    let cosines = |n: usize| angles[..n].iter().fold(radius, |r, a| r * (a * PI / 2.0).cos());
+    let sine = |k: usize| if k == 0 { 1.0 } else { (angles[objectives - 1 - k] * PI / 2.0).sin() };
+    (0..objectives).map(|k| cosines(objectives - 1 - k) * sine(k)).collect()
+}
+
+#[test]
+fn with_six_objectives_contribution_keeps_what_crowding_loses() {
+    const REFERENCE: f64 = 1.2;
+    let volume = |fits: &[Fitness]| {
+        let mut sampled = SampledHypervolume::new(6);
+        fits.iter()
+            .for_each(|f| sampled.offer(&f.objectives.iter().map(|x| x / REFERENCE).collect::<Vec<_>>()));
+        sampled.value()
+    };
+    for seed in 1..=5 {
+        let budget = (24, 40);
+        let crowding = nsga2(|x| dtlz2(6, x), 10, budget, survive, seed);
+        let by_contribution = |all: &[Fitness], mu: usize| survive_by_contribution(all, mu, &[REFERENCE; 6]);
+        let contribution = nsga2(|x| dtlz2(6, x), 10, budget, by_contribution, seed);
+        let (a, b) = (volume(&crowding), volume(&contribution));
+        println!("seed {seed}: crowding {a:.3}, contribution {b:.3}");
+        assert!(b > 1.1 * a, "seed {seed}: crowding {a}, contribution {b}");
+    }
+}
+
+fn volume_of(row: &Row, budget: (usize, u32), seed: u64) -> f64 {
+    let fits = nsga2(|x| evaluate(&row.problem, x), row.variables, budget, survive, seed);
     let points: Vec<&[f64]> = fits.iter().map(|f| f.objectives.as_slice()).collect();
     hypervolume(&points, &row.reference)
 }
@@ -133,7 +177,7 @@ fn as_good_as_pymoo_on_zdt_and_dtlz() {
     let spread: Spread = serde_json::from_str(include_str!("data/evolve/spread.json")).expect("spread");
     for row in &spread.rows {
         let mut ours: Vec<f64> =
-            (1..=11).map(|seed| nsga2(row, spread.population, spread.generations, seed)).collect();
+            (1..=11).map(|seed| volume_of(row, (spread.population, spread.generations), seed)).collect();
         ours.sort_by(f64::total_cmp);
         let lowest = row.hypervolume.iter().copied().fold(f64::INFINITY, f64::min);
         println!(

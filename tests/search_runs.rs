@@ -35,6 +35,31 @@ fn the_number_of_threads_changes_nothing() {
 }
 
 #[test]
+fn geometry_chooses_among_candidates() {
+    let search = |screen: usize, planted: Planted, threads: usize| {
+        let problem = Counting { previews: true, planted, ..Counting::new() };
+        let mut settings = settings(12);
+        settings.search.screen = screen;
+        run_silently(&problem, &settings, threads)
+    };
+    let (plain, screened) = (search(1, Planted::Nothing, 1), search(3, Planted::Nothing, 1));
+    assert_eq!(plain, run_silently(&Counting::new(), &settings(12), 1), "one candidate is no choice");
+    let Breeding { bred, duplicates, rejected, screened: passed_over, .. } = screened.breeding;
+    assert!(passed_over > screened.evaluated.len() as u64, "{passed_over} passed over");
+    assert_eq!(bred, duplicates + rejected + passed_over + screened.evaluated.len() as u64 - 1);
+    // What geometry knows to be infeasible is analysed only where nothing else was bred.
+    let infeasible =
+        |o: &Outcome| o.evaluated.iter().filter(|r| r.generation > 1 && !r.is_feasible()).count();
+    assert!(infeasible(&screened) < infeasible(&plain), "{} {}", infeasible(&screened), infeasible(&plain));
+    for threads in [2, 3, 8] {
+        assert_eq!(search(3, Planted::Nothing, threads), screened, "{threads} threads");
+    }
+    let panicking = search(3, Planted::Panic, 2);
+    assert_eq!(panicking.ended, Ended::Generations);
+    check_front(&panicking);
+}
+
+#[test]
 fn another_seed_is_another_run() {
     let mut other = settings(3);
     other.seed = 8;

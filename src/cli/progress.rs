@@ -123,8 +123,13 @@ impl Observer for Display {
         }
         let breeding = &row.breeding;
         let told = format!(
-            "  bred {}, duplicates refused {}, neighbours refused {}, rejected by topology {}, immigrants {}",
-            breeding.bred, breeding.duplicates, breeding.neighbours, breeding.rejected, breeding.immigrants
+            "  bred {}, duplicates refused {}, neighbours refused {}, rejected by topology {}, passed over by geometry {}, immigrants {}",
+            breeding.bred,
+            breeding.duplicates,
+            breeding.neighbours,
+            breeding.rejected,
+            breeding.screened,
+            breeding.immigrants
         );
         self.beside_the_bar(|| self.console.detail(&told));
     }

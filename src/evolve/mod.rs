@@ -5,6 +5,7 @@
 //! finite makes a design failed ([`Fitness::new`]), so NaN neither enters a front nor wins a tournament.
 
 mod archive;
+mod contribution;
 mod crowding;
 mod domination;
 mod hypervolume;
@@ -19,5 +20,5 @@ pub use domination::{Domination, FAILED, Fitness, Violation, compare, compare_ob
 pub use hypervolume::hypervolume;
 pub use nondominated::NonDominated;
 pub use sampled::{LOWER_CORNER, SAMPLES, SampledHypervolume};
-pub use selection::{Standing, standings, survive, tournament};
+pub use selection::{Standing, standings, survive, survive_by_contribution, tournament};
 pub use sorting::fronts;

@@ -29,8 +29,7 @@ impl SampledHypervolume {
         let mut points = Vec::with_capacity(SAMPLES * dimensions);
         for k in 1..=SAMPLES {
             for step in &steps {
-                let u = (0.5 + k as f64 * step).fract();
-                points.push(LOWER_CORNER + (1.0 - LOWER_CORNER) * u);
+                points.push(LOWER_CORNER + (1.0 - LOWER_CORNER) * at(k, *step));
             }
         }
         Self { dimensions, points, dominated: vec![false; SAMPLES], count: 0 }
@@ -58,8 +57,13 @@ impl SampledHypervolume {
     }
 }
 
+/// Coordinate of the sample point with number `k` along an axis with this step, in [0, 1).
+pub(super) fn at(k: usize, step: f64) -> f64 {
+    (0.5 + k as f64 * step).fract()
+}
+
 /// Steps of the R_d sequence: powers of 1/φ, where φ is the real root of x^(d+1) = x + 1.
-fn steps(dimensions: usize) -> Vec<f64> {
+pub(super) fn steps(dimensions: usize) -> Vec<f64> {
     let power = |x: f64, n: usize| (0..n).fold(1.0, |p, _| p * x);
     let mut phi = 2.0;
     // Newton's iteration converges to the last bit well within this.

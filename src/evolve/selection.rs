@@ -2,6 +2,7 @@
 
 use std::cmp::Ordering;
 
+use super::contribution::Contributions;
 use super::crowding::crowding_distance;
 use super::domination::Fitness;
 use super::sorting::fronts;
@@ -62,17 +63,50 @@ pub fn tournament(standings: &[Standing], rng: &mut Rng) -> Option<usize> {
 ///
 /// Returns ascending indices, all of them when there are no more than `mu`. Ties go to the earlier index.
 pub fn survive(all: &[Fitness], mu: usize) -> Vec<usize> {
+    survive_with(all, mu, |front, room| {
+        let mut by_crowding: Vec<(f64, usize)> = front_crowding(all, &front).into_iter().zip(front).collect();
+        by_crowding.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        by_crowding.into_iter().take(room).map(|(_, i)| i).collect()
+    })
+}
+
+/// As [`survive`], but from the last front goes, one at a time, the design that adds least to its hypervolume before
+/// `reference` (Beume, Naujoks and Emmerich 2007, doi:10.1016/j.ejor.2006.08.008); of those that add alike the most crowded.
+///
+/// With many objectives most designs are non-dominated, and crowding distance keeps the ends of the front, good or not.
+pub fn survive_by_contribution(all: &[Fitness], mu: usize, reference: &[f64]) -> Vec<usize> {
+    survive_with(all, mu, |mut front, room| {
+        if front.iter().any(|&i| !all[i].violation.is_feasible()) {
+            front.truncate(room);
+            return front;
+        }
+        let points: Vec<&[f64]> = front.iter().map(|&i| all[i].objectives.as_slice()).collect();
+        let crowding = crowding_distance(&points);
+        let mut contributions = Contributions::new(&points, reference);
+        let mut left: Vec<usize> = (0..front.len()).collect();
+        while left.len() > room {
+            let order = |&a: &usize, &b: &usize| {
+                let (x, y) = (contributions.of(a), contributions.of(b));
+                x.cmp(&y).then(crowding[a].total_cmp(&crowding[b])).then(b.cmp(&a))
+            };
+            let Some(least) = left.iter().copied().min_by(order) else { break };
+            contributions.remove(least);
+            left.retain(|&k| k != least);
+        }
+        left.into_iter().map(|k| front[k]).collect()
+    })
+}
+
+/// Whole fronts while there is room, then what `cut` leaves of the next one; ascending indices.
+fn survive_with(all: &[Fitness], mu: usize, cut: impl Fn(Vec<usize>, usize) -> Vec<usize>) -> Vec<usize> {
     let mut survivors = Vec::with_capacity(mu.min(all.len()));
     for front in fronts(all) {
         let room = mu - survivors.len();
-        if front.len() <= room {
-            survivors.extend(front);
-            continue;
+        if front.len() > room {
+            survivors.extend(cut(front, room));
+            break;
         }
-        let mut by_crowding: Vec<(f64, usize)> = front_crowding(all, &front).into_iter().zip(front).collect();
-        by_crowding.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-        survivors.extend(by_crowding.into_iter().take(room).map(|(_, i)| i));
-        break;
+        survivors.extend(front);
     }
     survivors.sort_unstable();
     survivors
@@ -97,6 +131,28 @@ mod tests {
         assert_eq!(survive(&all, 3), [0, 3, 4]);
         assert_eq!(survive(&all, 10), [0, 1, 2, 3, 4, 5]);
         assert_eq!(survive(&all, 0), [0usize; 0]);
+    }
+
+    #[test]
+    fn the_least_contribution_goes_first_and_bad_ends_go() {
+        let all: Vec<Fitness> = [[0.0, 9.0], [1.0, 2.9], [1.1, 2.8], [2.0, 2.0], [4.0, 0.0], [5.0, 5.0]]
+            .iter()
+            .map(|p| feasible(p))
+            .collect();
+        assert_eq!(
+            survive_by_contribution(&all, 4, &[6.0, 6.0]),
+            [1, 2, 3, 4],
+            "an end beyond the reference"
+        );
+        assert_eq!(survive_by_contribution(&all, 3, &[6.0, 6.0]), [1, 3, 4]);
+        assert_eq!(
+            survive_by_contribution(&all, 3, &[-1.0, -1.0]),
+            survive(&all, 3),
+            "nothing before it: crowding"
+        );
+        assert_eq!(survive_by_contribution(&all, 10, &[6.0, 6.0]), [0, 1, 2, 3, 4, 5]);
+        let failed = vec![Fitness::new(Violation::new(1, 2.0), vec![1.0, 1.0]); 3];
+        assert_eq!(survive_by_contribution(&failed, 2, &[6.0, 6.0]), [0, 1]);
     }
 
     #[test]

@@ -18,6 +18,7 @@ pub fn generations(rows: &[GenerationRow], objectives: &[String]) -> Table {
         "neighbours_refused",
         "rejected_by_topology",
         "cached",
+        "screened",
         "immigrants",
         "empty_slots",
     ];
@@ -38,6 +39,7 @@ pub fn generations(rows: &[GenerationRow], objectives: &[String]) -> Table {
             breeding.neighbours.into(),
             breeding.rejected.into(),
             breeding.cached.into(),
+            breeding.screened.into(),
             breeding.immigrants.into(),
             breeding.empty.into(),
         ];

@@ -226,6 +226,7 @@ fn generation(record: Record<'_>, columns: &Columns) -> Result<GenerationRow, Lo
             neighbours: record.parse("neighbours_refused")?,
             rejected: record.parse("rejected_by_topology")?,
             cached: record.parse("cached")?,
+            screened: record.parse("screened")?,
             immigrants: record.parse("immigrants")?,
             empty: record.parse("empty_slots")?,
             operators: Vec::new(),

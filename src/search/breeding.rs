@@ -6,8 +6,9 @@ use super::operators::{
     OPERATORS, Operator, crossover, drop_last, fit, insert, remove, substitute, swap_pair,
 };
 use super::params::SearchParams;
-use super::problem::{Identity, Problem, RuleOperator};
+use super::problem::{Identity, Preview, Problem, RuleOperator};
 use super::record::{Breeding, EvaluatedRow, OperatorCount};
+use super::screening::Screening;
 use super::server::Server;
 use super::state::{Member, State};
 use super::stop::StopFlag;
@@ -31,6 +32,8 @@ struct Slot {
     rng: Rng,
     /// Strings refused so far.
     refused: u32,
+    /// What could fill it, each of another topology, when geometry chooses.
+    candidates: Vec<(Draft, Identity)>,
 }
 
 /// A string as bred, before anybody looked at what it means.
@@ -65,9 +68,10 @@ impl Default for Brood {
 ///
 /// Rounds: every open slot drafts one string from its own random stream, in slot order; all drafts are identified
 /// (in parallel, nothing is drawn there); then they are judged in slot order. A slot whose drafts were refused
-/// `tries` times becomes a random immigrant's, and stays empty after as many refusals again.
+/// `tries` times becomes a random immigrant's, and stays empty after as many refusals again. Where geometry chooses
+/// ([`Screening`]), a slot gathers candidates until it has enough or its drafts were refused that often.
 ///
-/// Long strings take long. The signal that raised `stop` between two drafts is returned; the brood is then not whole.
+/// Long strings take long, and so do many previews. The signal that raised `stop` between two drafts is returned; the brood is then not whole.
 pub(crate) fn breed<P: Problem>(
     problem: &P,
     server: &dyn Server,
@@ -80,22 +84,31 @@ pub(crate) fn breed<P: Problem>(
     let generation = state.next_generation();
     let mut known = std::mem::take(&mut state.known);
     let (mut slot, end) = (brood.slots, brood.slots + wanted);
-    let mut nursery = Nursery { search, known: &mut known, first_row: state.rows.len() as u32, brood };
+    let mut nursery = Nursery {
+        search,
+        generation,
+        tries: search.duplicates.tries.max(1),
+        screening: Screening::of(problem, search, state),
+        known: &mut known,
+        first_row: state.rows.len() as u32,
+        brood,
+        full: Vec::new(),
+    };
     if generation == 0 && slot == 0 {
         nursery.take_seeds(server, observer);
         slot = nursery.brood.children.len();
     }
     nursery.brood.slots = end.max(slot);
     let parents = Parents::of(state, search);
-    let mut open: Vec<Slot> =
-        (slot..end).map(|slot| Slot { rng: stream(seed, generation, slot as u32), refused: 0 }).collect();
-    let tries = search.duplicates.tries.max(1);
+    let mut open: Vec<Slot> = (slot..end)
+        .map(|slot| Slot { rng: stream(seed, generation, slot as u32), refused: 0, candidates: Vec::new() })
+        .collect();
     let mut stopped = None;
     while !open.is_empty() {
         let drafts: Vec<Draft> = open
             .iter_mut()
             .take_while(|_| stop.raised().is_none())
-            .map(|slot| match generation == 0 || slot.refused >= tries {
+            .map(|slot| match generation == 0 || slot.refused >= nursery.tries {
                 true => random(problem, search, &mut slot.rng),
                 false => draft(problem, search, &parents, &mut slot.rng),
             })
@@ -106,20 +119,13 @@ pub(crate) fn breed<P: Problem>(
         }
         let strings: Vec<Tokens> = drafts.iter().map(|d| d.tokens.clone()).collect();
         let identities = server.identify(&strings);
-        let mut still_open = Vec::new();
-        for ((mut slot, draft), identity) in open.into_iter().zip(drafts).zip(identities) {
-            if nursery.judge(draft, identity, observer) {
-                nursery.brood.breeding.immigrants += u64::from(generation > 0 && slot.refused >= tries);
-                continue;
-            }
-            slot.refused += 1;
-            if slot.refused < 2 * tries {
-                still_open.push(slot);
-            } else {
-                nursery.brood.breeding.empty += 1;
-            }
+        let offers = open.into_iter().zip(drafts).zip(identities);
+        open = offers
+            .filter_map(|((slot, draft), identity)| nursery.offer(slot, draft, identity, observer))
+            .collect();
+        if open.is_empty() {
+            (open, stopped) = nursery.choose(server, stop);
         }
-        open = still_open;
     }
     state.known = known;
     stopped
@@ -128,9 +134,15 @@ pub(crate) fn breed<P: Problem>(
 /// The generation as it fills.
 struct Nursery<'a> {
     search: &'a SearchParams,
+    generation: u32,
+    /// Refusals before a slot becomes an immigrant's.
+    tries: u32,
+    screening: Option<Screening<'a>>,
     known: &'a mut Known,
     first_row: u32,
     brood: &'a mut Brood,
+    /// Slots with enough candidates.
+    full: Vec<Slot>,
 }
 
 impl Nursery<'_> {
@@ -156,13 +168,13 @@ impl Nursery<'_> {
         }
     }
 
-    /// Accepts or refuses a draft; returns whether it was accepted.
+    /// Gives back a draft that may be accepted, or refuses it.
     fn judge(
         &mut self,
         draft: Draft,
         identity: Result<Identity, String>,
         observer: &mut dyn Observer,
-    ) -> bool {
+    ) -> Option<(Draft, Identity)> {
         self.brood.breeding.bred += 1;
         self.count(draft.operators, |c| c.used += 1);
         let identity = match identity {
@@ -170,7 +182,7 @@ impl Nursery<'_> {
             Err(message) => {
                 observer.notice(&format!("string {}: {message}", draft.tokens));
                 self.brood.breeding.rejected += 1;
-                return false;
+                return None;
             }
         };
         match self.known.judge(&identity) {
@@ -179,12 +191,79 @@ impl Nursery<'_> {
             _ if self.search.rebreed_rejected && identity.rejected.is_some() => {
                 self.brood.breeding.rejected += 1
             }
-            _ => {
+            _ => return Some((draft, identity)),
+        }
+        None
+    }
+
+    /// Offers a draft to a slot; gives the slot back if it is still open.
+    fn offer(
+        &mut self,
+        mut slot: Slot,
+        draft: Draft,
+        identity: Result<Identity, String>,
+        observer: &mut dyn Observer,
+    ) -> Option<Slot> {
+        // The first population is random anyway.
+        let given_up = self.generation > 0 && slot.refused >= self.tries;
+        match (self.judge(draft, identity, observer), self.screening) {
+            (Some((draft, identity)), Some(screening)) if !given_up => {
+                if slot.candidates.iter().all(|(_, other)| other.code != identity.code) {
+                    slot.candidates.push((draft, identity));
+                } else {
+                    self.brood.breeding.duplicates += 1;
+                    slot.refused += 1;
+                }
+                if slot.candidates.len() == screening.candidates {
+                    self.full.push(slot);
+                    return None;
+                }
+            }
+            (Some((draft, identity)), _) => {
                 self.accept(draft, identity);
-                return true;
+                self.brood.breeding.immigrants += u64::from(given_up);
+                return None;
+            }
+            (None, _) => slot.refused += 1,
+        }
+        if slot.refused >= self.tries && !slot.candidates.is_empty() {
+            self.full.push(slot);
+            return None;
+        }
+        let empty = slot.refused >= 2 * self.tries;
+        self.brood.breeding.empty += u64::from(empty);
+        (!empty).then_some(slot)
+    }
+
+    /// Fills each full slot with the most promising of its candidates that no slot before it took. Gives back the slots
+    /// that found nothing, and the signal if one came first.
+    fn choose(&mut self, server: &dyn Server, stop: &StopFlag) -> (Vec<Slot>, Option<i32>) {
+        let Some(screening) = self.screening else { return (Vec::new(), None) };
+        let strings =
+            self.full.iter().flat_map(|slot| &slot.candidates).map(|(draft, _)| draft.tokens.clone());
+        let previews = server.preview(&strings.collect::<Vec<_>>(), &|| stop.raised().is_some());
+        if let Some(signal) = stop.raised() {
+            return (Vec::new(), Some(signal));
+        }
+        let mut previews = previews.into_iter().flatten();
+        let mut emptied = Vec::new();
+        for mut slot in std::mem::take(&mut self.full) {
+            let mut candidates: Vec<_> = std::mem::take(&mut slot.candidates).into_iter().map(Some).collect();
+            let of_slot: Vec<Preview> = previews.by_ref().take(candidates.len()).collect();
+            let order = screening.order(&of_slot, &mut slot.rng).into_iter();
+            let free = |(_, identity): &(Draft, Identity)| {
+                matches!(self.known.judge(identity), Verdict::New | Verdict::Cached(_))
+            };
+            if let Some((draft, identity)) = order.filter_map(|k| candidates[k].take()).find(free) {
+                self.brood.breeding.screened += of_slot.len() as u64 - 1;
+                self.accept(draft, identity);
+            } else {
+                self.brood.breeding.duplicates += of_slot.len() as u64;
+                slot.refused += 1;
+                emptied.push(slot);
             }
         }
-        false
+        (emptied, None)
     }
 
     fn accept(&mut self, draft: Draft, identity: Identity) {

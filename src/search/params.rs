@@ -52,6 +52,12 @@ pub struct SearchParams {
     pub mutation: MutationParams,
     /// Rule-wise operators, shares of all children; the rest are bred token-wise.
     pub rules: RuleParams,
+    /// How the last front that survives is cut.
+    pub survival: Survival,
+    /// How many candidates are bred for each place, of which geometry chooses one to be analysed; 1 = no choice. Only
+    /// where it tells some of the objectives, and while at least half of the designs come as far as the analysis.
+    #[schemars(extend("minimum" = 1, "maximum" = 100))]
+    pub screen: usize,
     /// Share of children that are random strings, without parents; 1 = random search.
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub immigrants: f64,
@@ -80,6 +86,8 @@ impl Default for SearchParams {
             crossover_kinds: CrossoverKinds::default(),
             mutation: MutationParams::default(),
             rules: RuleParams::default(),
+            survival: Survival::Auto,
+            screen: 1,
             immigrants: 0.0,
             refills: 3,
             rebreed_rejected: true,
@@ -132,6 +140,18 @@ pub enum Initialiser {
     Structured,
     /// As structured, but follows the decoding and closes a pair only where that is applicable.
     Aware,
+}
+
+/// Which designs of the last front that survives stay: whole fronts before it always do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Survival {
+    /// `crowding` for up to four objectives, `hypervolume` for more.
+    Auto,
+    /// Those of the largest crowding distance (Deb et al. 2002).
+    Crowding,
+    /// Those that add most to the hypervolume before the reference, once there is one; until then as `crowding`.
+    Hypervolume,
 }
 
 /// Weights of the kinds of crossover; only their ratios matter.

@@ -15,6 +15,17 @@ pub trait Problem: Sync {
     /// [`Identity::code`] must give the same evaluation, since only one of them is ever evaluated.
     fn evaluate(&self, tokens: &Tokens) -> Evaluation;
 
+    /// Whether some objectives are known before the structure is analysed, and others only after. If so,
+    /// [`Self::preview`] may be asked of several candidates, of which one is evaluated.
+    fn has_preview(&self) -> bool {
+        false
+    }
+
+    /// What is known of a design before its structure is analysed.
+    fn preview(&self, _tokens: &Tokens) -> Preview {
+        Preview::unknown(Violation::NONE)
+    }
+
     /// A random string, by the initialiser of the config.
     fn random(&self, rng: &mut Rng) -> Tokens;
 
@@ -50,6 +61,22 @@ pub struct Identity {
     /// Why topology alone already rules the design out (pinched, flat faces), if it does. Such a design may be bred
     /// anew without being evaluated; [`Problem::evaluate`] must give the same violation and reason.
     pub rejected: Option<(Violation, String)>,
+}
+
+/// What is known of a design before its structure is analysed.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Preview {
+    /// Stage and measure of a failure that is known by then.
+    pub violation: Violation,
+    /// The objectives in the order of the config, rounded to 10 significant digits; `None` for those that are not known.
+    pub objectives: Vec<Option<f64>>,
+}
+
+impl Preview {
+    /// Of a design without a pattern.
+    pub fn unknown(violation: Violation) -> Self {
+        Self { violation, objectives: Vec::new() }
+    }
 }
 
 /// The result of evaluating one design.

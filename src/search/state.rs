@@ -5,12 +5,16 @@ use serde::{Deserialize, Serialize};
 use super::breeding::Child;
 use super::known::Known;
 use super::normalise::{Normalisation, Volume, extremes};
-use super::params::SearchParams;
+use super::params::{SearchParams, Survival};
 use super::problem::Evaluation;
 use super::record::{Breeding, EvaluatedRow, GenerationRow};
-use crate::evolve::{EpsilonArchive, Fitness, NonDominated, survive};
+use crate::evolve::{EpsilonArchive, Fitness, NonDominated, survive, survive_by_contribution};
 use crate::grammar::Tokens;
 use crate::mesh::canonical::Code;
+
+/// With more objectives than this most designs are non-dominated, and crowding distance, which keeps the ends of a front,
+/// good or not, tells too little (docs/search.md).
+const MANY: usize = 4;
 
 /// What stays fixed during a run.
 #[derive(Clone, PartialEq, Debug)]
@@ -150,7 +154,7 @@ impl State {
             made_by.push(child.operators);
         }
         let fitness: Vec<Fitness> = members.iter().map(|m| self.rows[m.row as usize].fitness()).collect();
-        let survivors = survive(&fitness, settings.search.population);
+        let survivors = self.survivors(&fitness, settings);
         for &survivor in &survivors {
             count(&mut breeding, made_by[survivor], |c| c.survived += 1);
         }
@@ -161,6 +165,20 @@ impl State {
         }
         let row = self.generation_row(generation, first, breeding);
         self.generations.push(row);
+    }
+
+    /// Who of parents and children stays.
+    fn survivors(&self, all: &[Fitness], settings: &Settings) -> Vec<usize> {
+        let search = &settings.search;
+        let by_hypervolume = match search.survival {
+            Survival::Auto => settings.objectives > MANY,
+            Survival::Crowding => false,
+            Survival::Hypervolume => true,
+        };
+        match self.normalisation() {
+            Some(axes) if by_hypervolume => survive_by_contribution(all, search.population, &axes.reference),
+            _ => survive(all, search.population),
+        }
     }
 
     /// Adds a row; true if it enters the front.

@@ -9,8 +9,8 @@ use quadrille::mesh::canonical::Code;
 use quadrille::random::{Rng, below};
 use quadrille::search::params::TokenBounds;
 use quadrille::search::{
-    Evaluation, Identity, Observer, Outcome, Problem, RuleOperator, SearchParams, Settings, Silent, StopFlag,
-    Store, StoreError, ThreadServer, run,
+    Evaluation, Identity, Observer, Outcome, Preview, Problem, RuleOperator, SearchParams, Settings, Silent,
+    StopFlag, Store, StoreError, ThreadServer, run,
 };
 
 /// What happens to the evaluations of one design in ten.
@@ -33,6 +33,8 @@ pub struct Counting {
     pub metrics: usize,
     /// Whether topology rules out half of all designs.
     pub fragile: bool,
+    /// Whether all objectives but the first are known before the analysis.
+    pub previews: bool,
 }
 
 impl Counting {
@@ -44,6 +46,7 @@ impl Counting {
             objectives: 3,
             metrics: 3,
             fragile: false,
+            previews: false,
         }
     }
 
@@ -115,6 +118,17 @@ impl Problem for Counting {
             metrics: [Some(t), None, Some(p / 3.0)].into_iter().cycle().take(self.metrics).collect(),
             structural: true,
         }
+    }
+
+    fn has_preview(&self) -> bool {
+        self.previews
+    }
+
+    fn preview(&self, tokens: &Tokens) -> Preview {
+        let evaluation = self.evaluate(tokens);
+        self.evaluated.fetch_sub(1, Ordering::Relaxed);
+        let known = evaluation.objectives.iter().enumerate().map(|(m, &f)| (m > 0).then_some(f));
+        Preview { violation: evaluation.violation, objectives: known.collect() }
     }
 
     fn random(&self, rng: &mut Rng) -> Tokens {
