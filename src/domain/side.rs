@@ -1,5 +1,6 @@
 //! The sides of the boundary, from corner to corner, as seen from a point in plan.
 
+use super::curve::closest_on_segment;
 use super::params::Symmetry;
 use super::{BoundaryLoop, Domain};
 
@@ -39,16 +40,9 @@ fn from_loop(label: usize, curve: &BoundaryLoop, spacing: f64, point: [f64; 2]) 
     for (i, &s) in stations.iter().enumerate() {
         // The piece from this station to the next; what comes before the first corner belongs to the last side.
         let side = cuts.partition_point(|c| *c <= s).checked_sub(1).unwrap_or(cuts.len() - 1);
-        let distance = to_segment(point, places[i], places[(i + 1) % places.len()]);
-        least[side] = least[side].min(distance);
+        let distance2 =
+            closest_on_segment([point[0], point[1], 0.0], places[i], places[(i + 1) % places.len()], 2).0;
+        least[side] = least[side].min(distance2.sqrt());
     }
     least.into_iter().enumerate().map(|(k, distance)| (distance, (label, k))).collect()
-}
-
-/// Distance of a point from a segment in plan.
-fn to_segment(point: [f64; 2], a: [f64; 3], b: [f64; 3]) -> f64 {
-    let (ab, ap) = ([b[0] - a[0], b[1] - a[1]], [point[0] - a[0], point[1] - a[1]]);
-    let length = ab[0] * ab[0] + ab[1] * ab[1];
-    let share = if length > 0.0 { ((ap[0] * ab[0] + ap[1] * ab[1]) / length).clamp(0.0, 1.0) } else { 0.0 };
-    (ap[0] - share * ab[0]).hypot(ap[1] - share * ab[1])
 }
