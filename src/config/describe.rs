@@ -269,6 +269,11 @@ fn describe_search(config: &Config) -> Vec<String> {
             search.tokens.max
         ),
         format!("evaluated first: {}", quoted(&search.initial.seeds)),
+        match search.survival.by_hypervolume(config.objectives.minimise.len()) {
+            true => "of the last front that survives, what adds most to the hypervolume stays",
+            false => "of the last front that survives, what is least crowded stays",
+        }
+        .to_owned(),
     ]
 }
 

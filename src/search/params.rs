@@ -154,6 +154,21 @@ pub enum Survival {
     Hypervolume,
 }
 
+/// With more objectives than this most designs are non-dominated, and crowding distance, which keeps the ends of a front, good or
+/// not, tells too little (docs/search.md).
+const MANY: usize = 4;
+
+impl Survival {
+    /// Whether the hypervolume decides, with this number of objectives.
+    pub fn by_hypervolume(self, objectives: usize) -> bool {
+        match self {
+            Self::Auto => objectives > MANY,
+            Self::Crowding => false,
+            Self::Hypervolume => true,
+        }
+    }
+}
+
 /// Weights of the kinds of crossover; only their ratios matter.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]

@@ -5,16 +5,12 @@ use serde::{Deserialize, Serialize};
 use super::breeding::Child;
 use super::known::Known;
 use super::normalise::{Normalisation, Volume, extremes};
-use super::params::{SearchParams, Survival};
+use super::params::SearchParams;
 use super::problem::Evaluation;
 use super::record::{Breeding, EvaluatedRow, GenerationRow};
 use crate::evolve::{EpsilonArchive, Fitness, NonDominated, survive, survive_by_contribution};
 use crate::grammar::Tokens;
 use crate::mesh::canonical::Code;
-
-/// With more objectives than this most designs are non-dominated, and crowding distance, which keeps the ends of a front,
-/// good or not, tells too little (docs/search.md).
-const MANY: usize = 4;
 
 /// What stays fixed during a run.
 #[derive(Clone, PartialEq, Debug)]
@@ -170,11 +166,7 @@ impl State {
     /// Who of parents and children stays.
     fn survivors(&self, all: &[Fitness], settings: &Settings) -> Vec<usize> {
         let search = &settings.search;
-        let by_hypervolume = match search.survival {
-            Survival::Auto => settings.objectives > MANY,
-            Survival::Crowding => false,
-            Survival::Hypervolume => true,
-        };
+        let by_hypervolume = search.survival.by_hypervolume(settings.objectives);
         match self.normalisation() {
             Some(axes) if by_hypervolume => survive_by_contribution(all, search.population, &axes.reference),
             _ => survive(all, search.population),
