@@ -226,7 +226,8 @@ fn generation(record: Record<'_>, columns: &Columns) -> Result<GenerationRow, Lo
             neighbours: record.parse("neighbours_refused")?,
             rejected: record.parse("rejected_by_topology")?,
             cached: record.parse("cached")?,
-            screened: record.parse("screened")?,
+            // Results of before have no such column.
+            screened: record.number("screened")?.unwrap_or(0.0) as u64,
             immigrants: record.parse("immigrants")?,
             empty: record.parse("empty_slots")?,
             operators: Vec::new(),
