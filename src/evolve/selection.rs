@@ -73,7 +73,7 @@ pub fn survive(all: &[Fitness], mu: usize) -> Vec<usize> {
 /// As [`survive`], but from the last front goes, one at a time, the design that adds least to its hypervolume before
 /// `reference` (Beume, Naujoks and Emmerich 2007, doi:10.1016/j.ejor.2006.08.008); of those that add alike the most crowded.
 ///
-/// With many objectives most designs are non-dominated, and crowding distance keeps the ends of the front, good or not.
+/// With many objectives most designs are non-dominated, and crowding distance does not tell good from bad.
 pub fn survive_by_contribution(all: &[Fitness], mu: usize, reference: &[f64]) -> Vec<usize> {
     survive_with(all, mu, |mut front, room| {
         if front.iter().any(|&i| !all[i].violation.is_feasible()) {

@@ -154,8 +154,8 @@ pub enum Survival {
     Hypervolume,
 }
 
-/// With more objectives than this most designs are non-dominated, and crowding distance, which keeps the ends of a front, good or
-/// not, tells too little (docs/search.md).
+/// With more objectives than this most designs are non-dominated, and crowding distance, which does not tell good from bad, decides
+/// alone (docs/search.md).
 const MANY: usize = 4;
 
 impl Survival {
