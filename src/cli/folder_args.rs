@@ -17,6 +17,14 @@ pub fn refuse_file(out: &Path) -> Result<(), CliError> {
     }
 }
 
+/// Refuses a file in a folder that is not there, before anything is done for it.
+pub fn folder_exists(file: &Path) -> Result<(), String> {
+    match file.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()) {
+        Some(folder) => Err(format!("there is no folder {}; make it first", folder.display())),
+        None => Ok(()),
+    }
+}
+
 /// Reads a results folder and makes its config ready.
 pub fn open(folder: &Path) -> Result<(Loaded, Study), CliError> {
     let loaded = load(folder).map_err(|error| CliError::Input(error.to_string()))?;

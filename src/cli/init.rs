@@ -1,5 +1,6 @@
 //! `quadrille init`: a commented config to start from.
 
+use super::folder_args::folder_exists;
 use super::quote::quote;
 use super::{CliError, Console};
 use std::fs::File;
@@ -31,9 +32,7 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
         )));
     }
     let path = PathBuf::from(format!("{name}.toml"));
-    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()) {
-        return Err(CliError::Input(format!("there is no folder {}; make it first", folder.display())));
-    }
+    folder_exists(&path).map_err(CliError::Input)?;
     if path.exists() {
         return Err(CliError::Input(format!("{} exists; choose another name", path.display())));
     }

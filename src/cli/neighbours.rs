@@ -2,6 +2,7 @@
 
 use super::compare::Comparison;
 use super::config_args::ConfigArgs;
+use super::folder_args::folder_exists;
 use super::topology::parse_string;
 use super::{CliError, Console};
 use quadrille::objectives::Metric;
@@ -84,15 +85,11 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
 
 /// Whether the folder of a file to be written is there, before anything is evaluated for it.
 fn writable(path: &Path) -> Result<(), CliError> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    match (folder.is_dir(), path.is_dir()) {
-        (false, _) => Err(CliError::Input(format!(
-            "--out {}: there is no folder {}; make it first",
-            path.display(),
-            folder.display()
-        ))),
-        (_, true) => Err(CliError::Input(format!("--out {}: a folder; allowed: a file", path.display()))),
-        _ => Ok(()),
+    let place = format!("--out {}", path.display());
+    folder_exists(path).map_err(|reason| CliError::Input(format!("{place}: {reason}")))?;
+    match path.is_dir() {
+        true => Err(CliError::Input(format!("{place}: a folder; allowed: a file"))),
+        false => Ok(()),
     }
 }
 

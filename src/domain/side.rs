@@ -26,11 +26,10 @@ impl Domain {
 }
 
 fn from_loop(label: usize, curve: &BoundaryLoop, spacing: f64, point: [f64; 2]) -> Vec<(f64, Side)> {
-    let mut cuts = curve.corners().to_vec();
-    let is_whole = cuts.len() < 2;
-    if is_whole {
-        cuts = vec![0.0];
-    }
+    let cuts = match curve.corners() {
+        [] | [_] => vec![0.0],
+        corners => corners.to_vec(),
+    };
     let mut stations = curve.sample(spacing);
     stations.extend(&cuts);
     stations.sort_by(f64::total_cmp);

@@ -1,6 +1,6 @@
 //! What each point of a front adds to the hypervolume, by sampling (Bader and Zitzler 2011, doi:10.1162/EVCO_a_00009).
 
-use super::sampled::{at, steps};
+use super::sampled::unit_sample;
 
 /// Number of sample points, 2¹⁴.
 const SAMPLES: usize = 1 << 14;
@@ -23,23 +23,23 @@ pub(super) struct Contributions {
 impl Contributions {
     /// Of the points of one front, all finite and as long as `reference`.
     pub(super) fn new(front: &[&[f64]], reference: &[f64]) -> Self {
-        let inside = |point: &&[f64]| point.iter().zip(reference).all(|(x, r)| x < r);
+        let inside = |p: &usize| front[*p].iter().zip(reference).all(|(x, r)| x < r);
+        let inside: Vec<usize> = (0..front.len()).filter(inside).collect();
         let best: Vec<f64> = (0..reference.len())
-            .map(|m| front.iter().filter(|p| inside(p)).fold(reference[m], |best, p| best.min(p[m])))
+            .map(|m| inside.iter().fold(reference[m], |best, &p| best.min(front[p][m])))
             .collect();
         let mut contributions = Self {
             dominated: vec![Vec::new(); front.len()],
             dominators: vec![(0, 0); SAMPLES],
             own: vec![0; front.len()],
         };
-        let steps = steps(reference.len());
-        let mut sample = vec![0.0; reference.len()];
-        for k in 0..SAMPLES {
-            for (m, x) in sample.iter_mut().enumerate() {
-                *x = best[m] + (reference[m] - best[m]) * at(k + 1, steps[m]);
+        let mut sample = unit_sample(reference.len(), SAMPLES);
+        for (k, sample) in sample.chunks_exact_mut(reference.len()).enumerate() {
+            for (x, (best, reference)) in sample.iter_mut().zip(best.iter().zip(reference)) {
+                *x = best + (reference - best) * *x;
             }
-            for (p, point) in front.iter().enumerate() {
-                if inside(point) && point.iter().zip(&sample).all(|(x, s)| x <= s) {
+            for &p in &inside {
+                if front[p].iter().zip(&*sample).all(|(x, s)| x <= s) {
                     contributions.dominated[p].push(k as u32);
                     let (count, who) = &mut contributions.dominators[k];
                     *count += 1;

@@ -25,13 +25,8 @@ pub struct SampledHypervolume {
 impl SampledHypervolume {
     /// The sample for `dimensions` ≥ 1 objectives, nothing dominated yet.
     pub fn new(dimensions: usize) -> Self {
-        let steps = steps(dimensions);
-        let mut points = Vec::with_capacity(SAMPLES * dimensions);
-        for k in 1..=SAMPLES {
-            for step in &steps {
-                points.push(LOWER_CORNER + (1.0 - LOWER_CORNER) * at(k, *step));
-            }
-        }
+        let place = |u: f64| LOWER_CORNER + (1.0 - LOWER_CORNER) * u;
+        let points = unit_sample(dimensions, SAMPLES).into_iter().map(place).collect();
         Self { dimensions, points, dominated: vec![false; SAMPLES], count: 0 }
     }
 
@@ -57,13 +52,15 @@ impl SampledHypervolume {
     }
 }
 
-/// Coordinate of the sample point with number `k` along an axis with this step, in [0, 1).
-pub(super) fn at(k: usize, step: f64) -> f64 {
-    (0.5 + k as f64 * step).fract()
+/// The first `count` points of the R_d sequence in the unit cube, one after another.
+pub(super) fn unit_sample(dimensions: usize, count: usize) -> Vec<f64> {
+    let steps = steps(dimensions);
+    let point = |k: usize| steps.iter().map(move |step| (0.5 + k as f64 * step).fract());
+    (1..=count).flat_map(point).collect()
 }
 
 /// Steps of the R_d sequence: powers of 1/φ, where φ is the real root of x^(d+1) = x + 1.
-pub(super) fn steps(dimensions: usize) -> Vec<f64> {
+fn steps(dimensions: usize) -> Vec<f64> {
     let power = |x: f64, n: usize| (0..n).fold(1.0, |p, _| p * x);
     let mut phi = 2.0;
     // Newton's iteration converges to the last bit well within this.

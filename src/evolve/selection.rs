@@ -37,11 +37,16 @@ pub fn standings(all: &[Fitness]) -> Vec<Standing> {
 
 /// Crowding within one front; a front of infeasible designs has equal violations, and its objectives say nothing.
 fn front_crowding(all: &[Fitness], front: &[usize]) -> Vec<f64> {
-    if front.iter().any(|&i| !all[i].violation.is_feasible()) {
-        return vec![0.0; front.len()];
+    match feasible_points(all, front) {
+        Some(points) => crowding_distance(&points),
+        None => vec![0.0; front.len()],
     }
-    let points: Vec<&[f64]> = front.iter().map(|&i| all[i].objectives.as_slice()).collect();
-    crowding_distance(&points)
+}
+
+/// The objectives of one front; `None` for a front of infeasible designs.
+fn feasible_points<'a>(all: &'a [Fitness], front: &[usize]) -> Option<Vec<&'a [f64]>> {
+    let point = |&i: &usize| all[i].violation.is_feasible().then_some(all[i].objectives.as_slice());
+    front.iter().map(point).collect()
 }
 
 /// Binary tournament: of two different members drawn at random, the better by the crowded comparison; of two equal
@@ -76,11 +81,10 @@ pub fn survive(all: &[Fitness], mu: usize) -> Vec<usize> {
 /// With many objectives most designs are non-dominated, and crowding distance does not tell good from bad.
 pub fn survive_by_contribution(all: &[Fitness], mu: usize, reference: &[f64]) -> Vec<usize> {
     survive_with(all, mu, |mut front, room| {
-        if front.iter().any(|&i| !all[i].violation.is_feasible()) {
+        let Some(points) = feasible_points(all, &front) else {
             front.truncate(room);
             return front;
-        }
-        let points: Vec<&[f64]> = front.iter().map(|&i| all[i].objectives.as_slice()).collect();
+        };
         let crowding = crowding_distance(&points);
         let mut contributions = Contributions::new(&points, reference);
         let mut left: Vec<usize> = (0..front.len()).collect();

@@ -207,16 +207,12 @@ impl Nursery<'_> {
         // The first population is random anyway.
         let given_up = self.generation > 0 && slot.refused >= self.tries;
         match (self.judge(draft, identity, observer), self.screening) {
-            (Some((draft, identity)), Some(screening)) if !given_up => {
+            (Some((draft, identity)), Some(_)) if !given_up => {
                 if slot.candidates.iter().all(|(_, other)| other.code != identity.code) {
                     slot.candidates.push((draft, identity));
                 } else {
                     self.brood.breeding.duplicates += 1;
                     slot.refused += 1;
-                }
-                if slot.candidates.len() == screening.candidates {
-                    self.full.push(slot);
-                    return None;
                 }
             }
             (Some((draft, identity)), _) => {
@@ -226,7 +222,8 @@ impl Nursery<'_> {
             }
             (None, _) => slot.refused += 1,
         }
-        if slot.refused >= self.tries && !slot.candidates.is_empty() {
+        let enough = self.screening.is_some_and(|screening| slot.candidates.len() == screening.candidates);
+        if enough || (slot.refused >= self.tries && !slot.candidates.is_empty()) {
             self.full.push(slot);
             return None;
         }

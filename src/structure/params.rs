@@ -312,6 +312,13 @@ pub enum Direction {
     Rz,
 }
 
+impl Direction {
+    /// Its name in the config.
+    pub fn name(self) -> String {
+        format!("{self:?}").to_lowercase()
+    }
+}
+
 /// One load case.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]

@@ -21,7 +21,7 @@ impl Study {
         let is_free =
             |direction: &Direction| supports.iter().all(|support| !support.fixed.contains(direction));
         let free = [Direction::Ux, Direction::Uy, Direction::Uz].into_iter().filter(is_free);
-        let names: Vec<String> = free.map(|direction| format!("{direction:?}").to_lowercase()).collect();
+        let names: Vec<String> = free.map(Direction::name).collect();
         (!names.is_empty()).then(|| {
             format!("structure.support: nothing fixes {}: every design is a mechanism", names.join(", "))
         })

@@ -16,21 +16,9 @@ const TOLERANCE: f64 = 1e-6;
 
 /// Refuses points that are nowhere near the boundary, or as near to one side as to another.
 pub fn check_points(domain: &Domain, structure: &StructureParams) -> Result<(), StudyError> {
-    for (i, support) in structure.supports.iter().enumerate() {
-        for (name, nodes) in support.nodes() {
-            let (points, is_side) = match nodes {
-                SupportNodes::NodesNear(points) => (points, false),
-                SupportNodes::SidesNear(points) => (points, true),
-                SupportNodes::Place(_) | SupportNodes::Loop(_) => continue,
-            };
-            for (k, &point) in points.iter().enumerate() {
-                if let Some(reason) = fault(domain, point, is_side) {
-                    return Err(StudyError::SupportPoint {
-                        key: format!("structure.support[{i}].{name}[{k}]"),
-                        reason,
-                    });
-                }
-            }
+    for Near { key, point, is_side, .. } in near_points(structure) {
+        if let Some(reason) = fault(domain, point, is_side) {
+            return Err(StudyError::SupportPoint { key, reason });
         }
     }
     Ok(())
@@ -78,7 +66,7 @@ fn check_loops(symmetry: &Symmetry, structure: &StructureParams) -> Result<(), S
         here.flat_map(|support| support.fixed.iter().copied()).collect::<BTreeSet<_>>()
     };
     let words = |fixed: &BTreeSet<Direction>| {
-        let names: Vec<String> = fixed.iter().map(|d| format!("{d:?}").to_lowercase()).collect();
+        let names: Vec<String> = fixed.iter().map(|direction| direction.name()).collect();
         names.join(", ")
     };
     for (label, &image) in symmetry.loops.iter().enumerate() {
@@ -122,6 +110,7 @@ fn check_near(
 
 /// A point of a support rule.
 struct Near {
+    key: String,
     point: [f64; 2],
     is_side: bool,
     fixed: BTreeSet<Direction>,
@@ -129,15 +118,20 @@ struct Near {
 
 fn near_points(structure: &StructureParams) -> Vec<Near> {
     let mut near = Vec::new();
-    for support in &structure.supports {
-        for (_, nodes) in support.nodes() {
+    for (i, support) in structure.supports.iter().enumerate() {
+        for (name, nodes) in support.nodes() {
             let (points, is_side) = match nodes {
                 SupportNodes::NodesNear(points) => (points, false),
                 SupportNodes::SidesNear(points) => (points, true),
                 SupportNodes::Place(_) | SupportNodes::Loop(_) => continue,
             };
             let fixed: BTreeSet<Direction> = support.fixed.iter().copied().collect();
-            near.extend(points.iter().map(|&point| Near { point, is_side, fixed: fixed.clone() }));
+            near.extend(points.iter().enumerate().map(|(k, &point)| Near {
+                key: format!("structure.support[{i}].{name}[{k}]"),
+                point,
+                is_side,
+                fixed: fixed.clone(),
+            }));
         }
     }
     near
