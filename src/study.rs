@@ -224,7 +224,11 @@ impl Study {
     /// # Errors
     /// The [`Failure`] of the first stage that refuses the design.
     pub fn develop(&self, topology: CanonicalMesh, effort: Effort) -> Result<Design, Failure> {
-        if let Some(rejection) = geometry::topological_rejection(&topology, &self.domain, self.pinched) {
+        // Who wants every number gets them of designs too that break a limit in every pattern.
+        let limits = (effort != Effort::Everything).then_some(&self.limits);
+        if let Some(rejection) =
+            geometry::topological_rejection(&topology, &self.domain, self.pinched, limits)
+        {
             return Err(rejection.into());
         }
         let pattern = geometry::develop(&topology, &self.domain, self.surface.as_ref(), &self.pattern)?;
@@ -335,7 +339,8 @@ impl Problem for Study {
     fn identify(&self, tokens: &Tokens) -> Identity {
         let decoded = self.decode(tokens);
         let topology = canonical_mesh_under(&decoded.mesh, &self.symmetries);
-        let rejected = geometry::topological_rejection(&topology, &self.domain, self.pinched)
+        let limits = (topology.code != self.baseline).then_some(&self.limits);
+        let rejected = geometry::topological_rejection(&topology, &self.domain, self.pinched, limits)
             .map(Failure::from)
             .map(|failure| (failure.violation, failure.reason));
         Identity {

@@ -60,6 +60,17 @@ impl Curve {
         }
     }
 
+    /// The same curve at height 0.
+    pub(super) fn flattened(&self) -> Self {
+        let down = |[x, y, _]: &[f64; 3]| [*x, *y, 0.0];
+        match self {
+            Self::Polyline { points } => Self::Polyline { points: points.iter().map(down).collect() },
+            Self::Ellipse { center, axes, turn } => {
+                Self::Ellipse { center: down(center), axes: *axes, turn: *turn }
+            }
+        }
+    }
+
     /// d point / dt; at a kink that of the piece after it.
     pub(super) fn derivative(&self, t: f64) -> [f64; 3] {
         match self {

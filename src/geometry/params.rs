@@ -55,9 +55,9 @@ pub const FREE_SWEEPS: usize = 500;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct RelaxParams {
-    /// Weights of the smoothing; default on a free surface `uniform`.
+    /// How vertices are moved; default `optimise`, on a free surface `uniform`.
     pub kind: RelaxKind,
-    /// Number of Jacobi sweeps; default on a free surface 500.
+    /// Number of Jacobi sweeps of the smoothing kinds; default 100, on a free surface 500.
     pub sweeps: usize,
     /// Share of the way to the target that each sweep goes, in 0..1.
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 1))]
@@ -66,14 +66,16 @@ pub struct RelaxParams {
 
 impl Default for RelaxParams {
     fn default() -> Self {
-        Self { kind: RelaxKind::Area, sweeps: 100, damping: 0.5 }
+        Self { kind: RelaxKind::Optimise, sweeps: 100, damping: 0.5 }
     }
 }
 
-/// Weights of the smoothing.
+/// How a pattern is relaxed: optimised, smoothed with one of three weights (the paper's), or solved for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RelaxKind {
+    /// An energy with barriers at the limits, densities and geometry together (PATTERN §3); needs a surface.
+    Optimise,
     /// Mean of the neighbours.
     Uniform,
     /// Mean of the centroids of the adjacent panels, weighted by their areas.
