@@ -22,6 +22,7 @@ pub mod objectives;
 pub mod output;
 pub mod random;
 pub mod search;
+mod simd;
 pub mod skeleton;
 pub mod structure;
 pub mod study;

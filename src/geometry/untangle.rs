@@ -15,6 +15,8 @@ const AREA_WEIGHT: f64 = 0.2;
 /// Rounds, each with its ε, and steps of a round.
 const ROUNDS: usize = 40;
 const STEPS: usize = 12;
+/// Rounds without a better worst corner after which it gives up.
+const PATIENCE: usize = 12;
 /// A corner with at least this share of a square's determinant is unfolded well enough.
 const ENOUGH: f64 = 1e-3;
 /// Smallest ε.
@@ -44,11 +46,16 @@ pub fn untangle(net: &Net<'_>, rest: f64) -> Untangled {
     }
     if let Some(factor) = preconditioner(net, &flat.places) {
         let bounds = Bounds { iterations: STEPS, tolerance: 1e-4, rest };
+        let (mut best, mut best_round) = (f64::NEG_INFINITY, 0);
         for round in 0..ROUNDS {
             let least = flat.least(&x).min(0.0);
+            if least > best {
+                (best, best_round) = (least, round);
+            } else if round - best_round >= PATIENCE && least < 0.0 {
+                break;
+            }
             flat.epsilon = (LEAST_EPSILON * LEAST_EPSILON + 0.04 * least * least).sqrt();
-            flat.outside_weight = (1u64 << round.min(40)) as f64;
-            flat.outside_weight = flat.outside_weight.min(MOST_WEIGHT);
+            flat.outside_weight = ((1u64 << round) as f64).min(MOST_WEIGHT);
             descend(net, &mut flat, &factor, &mut x, bounds);
             if flat.is_clean(&x) {
                 return Untangled { x, is_clean: true };
@@ -104,7 +111,7 @@ impl<'a, 'b> Flat<'a, 'b> {
 
     fn is_outside(&mut self, x: &[f64]) -> bool {
         self.place(x);
-        self.net.is_outside(x, &self.places)
+        self.net.is_out_of_order(x) || self.net.is_outside(&self.places)
     }
 
     /// The least determinant of a corner and, where the boundary slides, the least arc of a boundary edge.

@@ -3,7 +3,7 @@
 //! The blocks are a few columns wide. A general matrix product packs its operands first, which here costs several
 //! times the work itself; these loops read every column of the basis once.
 
-use super::simd::wide;
+use crate::simd::wide;
 use nalgebra::DMatrix;
 
 /// Rows treated together, so that the narrow operand stays in the first-level cache.

@@ -17,7 +17,6 @@ pub mod model;
 pub mod params;
 pub mod second_order;
 pub mod section;
-mod simd;
 pub mod solver;
 pub mod system;
 mod triangular;

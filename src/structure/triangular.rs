@@ -7,7 +7,7 @@
 //! The order of every sum is written down, so that the result does not depend on the width of the processor's vectors.
 
 use super::columns::dot;
-use super::simd::wide;
+use crate::simd::wide;
 use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
 
 /// Columns of L treated together: those of a node.

@@ -15,6 +15,9 @@ pub(super) trait Algebra:
     /// √self; at 0 its derivative is taken as 0.
     fn sqrt(self) -> Self;
 
+    /// 1 / (2 self), 0 at 0: the derivative of a root, by the root.
+    fn half_over(self) -> Self;
+
     /// e^self for −700 ≤ self ≤ 700, see [`exp_bounded`].
     fn exp_bounded(self) -> Self;
 }
@@ -23,6 +26,11 @@ impl Algebra for f64 {
     #[inline(always)]
     fn sqrt(self) -> Self {
         self.sqrt()
+    }
+
+    #[inline(always)]
+    fn half_over(self) -> Self {
+        if self > 0.0 { 0.5 / self } else { 0.0 }
     }
 
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! Forward differentiation: one formula, written once, gives height and gradient.
 
-use super::algebra::{Algebra, exp_bounded};
+use super::algebra::Algebra;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A number that functions of one and two arguments can be applied to by the chain rule.
@@ -37,48 +37,57 @@ impl Real for f64 {
     }
 }
 
-/// A number with its derivatives by x and y.
+/// A number, or a batch of them, with the derivatives by x and y.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Dual {
+pub(super) struct Dual<T = f64> {
     /// The value.
-    pub(super) value: f64,
+    pub(super) value: T,
     /// ∂/∂x and ∂/∂y.
-    pub(super) slope: [f64; 2],
+    pub(super) slope: [T; 2],
 }
 
-impl Dual {
+impl<T: Algebra> Dual<T> {
     /// The variables x and y themselves.
-    pub(super) fn variables(x: f64, y: f64) -> [Self; 2] {
-        [Self { value: x, slope: [1.0, 0.0] }, Self { value: y, slope: [0.0, 1.0] }]
+    #[inline(always)]
+    pub(super) fn variables(x: T, y: T) -> [Self; 2] {
+        let (zero, one) = (T::from(0.0), T::from(1.0));
+        [Self { value: x, slope: [one, zero] }, Self { value: y, slope: [zero, one] }]
+    }
+
+    /// f(self), given the value of f and of its derivative.
+    #[inline(always)]
+    fn mapped(self, value: T, derivative: T) -> Self {
+        Self { value, slope: self.slope.map(|s| derivative * s) }
     }
 }
 
-impl From<f64> for Dual {
+impl<T: Algebra> From<f64> for Dual<T> {
+    #[inline(always)]
     fn from(value: f64) -> Self {
-        Self { value, slope: [0.0, 0.0] }
+        Self { value: T::from(value), slope: [T::from(0.0), T::from(0.0)] }
     }
 }
 
-impl Add for Dual {
+impl<T: Algebra> Add for Dual<T> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn add(self, o: Self) -> Self {
         Self { value: self.value + o.value, slope: [self.slope[0] + o.slope[0], self.slope[1] + o.slope[1]] }
     }
 }
 
-impl Sub for Dual {
+impl<T: Algebra> Sub for Dual<T> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn sub(self, o: Self) -> Self {
         Self { value: self.value - o.value, slope: [self.slope[0] - o.slope[0], self.slope[1] - o.slope[1]] }
     }
 }
 
 #[expect(clippy::suspicious_arithmetic_impl, reason = "the product rule")]
-impl Mul for Dual {
+impl<T: Algebra> Mul for Dual<T> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn mul(self, o: Self) -> Self {
         let by = |i: usize| self.slope[i] * o.value + self.value * o.slope[i];
         Self { value: self.value * o.value, slope: [by(0), by(1)] }
@@ -86,35 +95,42 @@ impl Mul for Dual {
 }
 
 #[expect(clippy::suspicious_arithmetic_impl, reason = "the quotient rule")]
-impl Div for Dual {
+impl<T: Algebra> Div for Dual<T> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn div(self, o: Self) -> Self {
         let value = self.value / o.value;
-        let by = |i: usize| (self.slope[i] - value * o.slope[i]) / o.value;
+        let inverse = T::from(1.0) / o.value;
+        let by = |i: usize| (self.slope[i] - value * o.slope[i]) * inverse;
         Self { value, slope: [by(0), by(1)] }
     }
 }
 
-impl Neg for Dual {
+impl<T: Algebra> Neg for Dual<T> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn neg(self) -> Self {
         Self { value: -self.value, slope: [-self.slope[0], -self.slope[1]] }
     }
 }
 
-impl Algebra for Dual {
-    #[inline]
+impl<T: Algebra> Algebra for Dual<T> {
+    #[inline(always)]
     fn sqrt(self) -> Self {
         let root = self.value.sqrt();
-        self.chain(root, if root > 0.0 { 0.5 / root } else { 0.0 })
+        self.mapped(root, root.half_over())
     }
 
-    #[inline]
+    #[inline(always)]
+    fn half_over(self) -> Self {
+        let half = self.value.half_over();
+        self.mapped(half, -(half * half + half * half))
+    }
+
+    #[inline(always)]
     fn exp_bounded(self) -> Self {
-        let e = exp_bounded(self.value);
-        self.chain(e, e)
+        let e = self.value.exp_bounded();
+        self.mapped(e, e)
     }
 }
 
@@ -125,7 +141,7 @@ impl Real for Dual {
 
     #[inline]
     fn chain(self, f: f64, derivative: f64) -> Self {
-        Self { value: f, slope: [derivative * self.slope[0], derivative * self.slope[1]] }
+        self.mapped(f, derivative)
     }
 
     fn combine(a: Self, b: Self, f: f64, [by_a, by_b]: [f64; 2]) -> Self {

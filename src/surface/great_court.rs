@@ -5,6 +5,7 @@ use super::algebra::Algebra;
 use super::dual::Dual;
 use super::height::HeightFunction;
 use super::lanes::{LANES, Lanes};
+use crate::simd::wide;
 
 /// Radius of the reading room's circle about the origin, m.
 const A: f64 = 22.245;
@@ -53,10 +54,26 @@ impl HeightFunction for GreatCourt {
         }
     }
 
+    fn lift_all_with_slopes(&self, points: &mut [[f64; 3]], slopes: &mut [[f64; 2]]) {
+        wide(
+            #[inline(always)]
+            || {
+                let whole = points.len() - points.len() % LANES;
+                let batches = points[..whole].chunks_exact_mut(LANES);
+                for (batch, slopes) in batches.zip(slopes[..whole].chunks_exact_mut(LANES)) {
+                    lift_batch(batch, slopes);
+                }
+                for (point, slope) in points[whole..].iter_mut().zip(&mut slopes[whole..]) {
+                    point[2] = self.z(point[0], point[1]);
+                    *slope = self.gradient(point[0], point[1]);
+                }
+            },
+        );
+    }
+
     fn gradient(&self, x: f64, y: f64) -> [f64; 2] {
         let (x, y) = within_walls(x, y);
-        let is_corner = x.abs() >= B && (y >= C || y <= -D);
-        if is_corner || (x * x + y * y).sqrt() <= A {
+        if is_level(x, y) {
             return [0.0; 2];
         }
         let [x, y] = Dual::variables(x, y);
@@ -73,6 +90,27 @@ impl HeightFunction for GreatCourt {
             "the roof is between |x| ≤ {B}, −{D} ≤ y ≤ {C} and the circle of radius {A} m about the origin"
         )
     }
+}
+
+/// Heights and slopes of [`LANES`] points.
+#[inline(always)]
+fn lift_batch(batch: &mut [[f64; 3]], slopes: &mut [[f64; 2]]) {
+    let (mut x, mut y) = ([0.0; LANES], [0.0; LANES]);
+    for (i, point) in batch.iter().enumerate() {
+        (x[i], y[i]) = within_walls(point[0], point[1]);
+    }
+    let [dual_x, dual_y] = Dual::variables(Lanes(x), Lanes(y));
+    let Dual { value: Lanes(z), slope: [Lanes(by_x), Lanes(by_y)] } = roof(dual_x, dual_y);
+    for (i, (point, slope)) in batch.iter_mut().zip(slopes).enumerate() {
+        point[2] = rim(x[i], y[i]).unwrap_or(z[i]);
+        *slope = if is_level(x[i], y[i]) { [0.0; 2] } else { [by_x[i], by_y[i]] };
+    }
+}
+
+/// Where the formula has no slope: in the corners, and within the circle.
+#[inline(always)]
+fn is_level(x: f64, y: f64) -> bool {
+    (x.abs() >= B && (y >= C || y <= -D)) || (x * x + y * y).sqrt() <= A
 }
 
 /// The nearest point within the walls.

@@ -78,6 +78,11 @@ impl Algebra for Lanes {
     }
 
     #[inline(always)]
+    fn half_over(self) -> Self {
+        self.each(|a| if a > 0.0 { 0.5 / a } else { 0.0 })
+    }
+
+    #[inline(always)]
     fn exp_bounded(self) -> Self {
         self.each(super::algebra::exp_bounded)
     }

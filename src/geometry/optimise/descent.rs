@@ -127,7 +127,6 @@ pub fn descend(net: &Net<'_>, energy: &mut dyn Energy, factor: &Factor, x: &mut 
             break;
         }
     }
-    if std::env::var("QDBG").is_ok() { eprintln!("    descend {} unknowns: {steps} steps, E {value}, small {small}, pairs {}", x.len(), pairs.len()); }
     value
 }
 

@@ -32,7 +32,7 @@ use super::vector::Vec3;
 use crate::domain::Domain;
 use crate::surface::Surface;
 use descent::{Bounds, Energy, descend, preconditioner};
-use energy::Weights;
+use energy::{Terms, Weights};
 use net::{Net, Places};
 use rows::Rungs;
 
@@ -49,6 +49,8 @@ const COARSENESS: f64 = 4.0;
 const ROUNDS: usize = 3;
 /// Times that strips with too long rungs get one row more.
 const REPAIRS: usize = 3;
+/// An energy after Q1 over which no design of 240 came to keep its limits with the same rows.
+const HOPELESS: f64 = 1e5;
 
 /// One descent: weights of angles and lengths, half the barriers' power, most steps, relative gain that counts as small.
 struct Stage {
@@ -207,11 +209,12 @@ impl<'a> Optimiser<'a> {
             let (mut is_clean, mut is_good) = (false, false);
             let mut state = None;
             for stage in &FINE {
-                is_clean = run.stage(stage, self.task.limits, 1.0);
+                let energy = run.stage(stage, self.task.limits, 1.0);
+                is_clean = energy.is_finite();
                 let found = run.net.state(run.x.clone());
                 is_good = is_clean && self.keeps_limits(&self.pattern(&sheet, &found));
                 state = Some(found);
-                if is_good || !is_clean {
+                if is_good || !is_clean || energy > HOPELESS {
                     break;
                 }
             }
@@ -261,8 +264,8 @@ impl<'a> Optimiser<'a> {
         let mut sheet = self.untangled(sheet);
         let (state, is_clean) = {
             let mut run = Run::new(self.ground, &sheet);
-            let is_clean = run.stage(stage, self.task.limits, coarseness);
-            (run.net.state(run.x), is_clean)
+            let energy = run.stage(stage, self.task.limits, coarseness);
+            (run.net.state(run.x), energy.is_finite())
         };
         sheet.set(state);
         (sheet, is_clean)
@@ -297,6 +300,7 @@ struct Run<'a> {
     net: Net<'a>,
     x: Vec<f64>,
     factor: Option<Factor>,
+    terms: Terms,
     places: Places,
     by_point: Vec<Vec3>,
 }
@@ -309,11 +313,11 @@ impl<'a> Run<'a> {
         net.place(&mut x, &mut places);
         let factor = preconditioner(&net, &places);
         let by_point = vec![[0.0; 3]; places.points.len()];
-        Self { net, x, factor, places, by_point }
+        Self { terms: Terms::of(&net), net, x, factor, places, by_point }
     }
 
-    /// One descent; whether the energy is finite.
-    fn stage(&mut self, stage: &Stage, limits: &Limits, coarseness: f64) -> bool {
+    /// One descent; the energy at its end.
+    fn stage(&mut self, stage: &Stage, limits: &Limits, coarseness: f64) -> f64 {
         let unit = limits.target_length / coarseness;
         let sin = libm::sin((ANGLE_RESERVE * limits.min_angle).min(std::f64::consts::FRAC_PI_2));
         let weights = Weights {
@@ -325,16 +329,22 @@ impl<'a> Run<'a> {
             sin_squared: sin * sin,
             gap: GAP_RESERVE * limits.max_gap / unit,
         };
-        let Some(factor) = &self.factor else { return false };
+        let Some(factor) = &self.factor else { return f64::INFINITY };
         let bounds = Bounds { iterations: stage.iterations, tolerance: stage.tolerance, rest: weights.rest };
-        let mut energy =
-            Shape { net: &self.net, weights, places: &mut self.places, by_point: &mut self.by_point };
-        descend(&self.net, &mut energy, factor, &mut self.x, bounds).is_finite()
+        let mut energy = Shape {
+            net: &self.net,
+            terms: &self.terms,
+            weights,
+            places: &mut self.places,
+            by_point: &mut self.by_point,
+        };
+        descend(&self.net, &mut energy, factor, &mut self.x, bounds)
     }
 }
 
 struct Shape<'a, 'b> {
     net: &'a Net<'b>,
+    terms: &'a Terms,
     weights: Weights,
     places: &'a mut Places,
     by_point: &'a mut Vec<Vec3>,
@@ -342,12 +352,17 @@ struct Shape<'a, 'b> {
 
 impl Energy for Shape<'_, '_> {
     fn value(&mut self, x: &mut [f64], gradient: &mut [f64]) -> f64 {
-        self.net.place(x, self.places);
-        if self.net.is_outside(x, self.places) {
-            if std::env::var("QDBG").is_ok() { eprintln!("outside: links {} of {}", self.net.links.iter().filter(|l| self.net.arc(x, l) <= 0.0).count(), self.net.links.len()); }
+        // What is seen in plan first: most steps that are too long cost no heights.
+        self.net.place_in_plan(x, self.places);
+        let is_height = self.net.ground.is_height();
+        if self.net.is_out_of_order(x) || (is_height && self.terms.is_folded(&self.places.points)) {
             return f64::INFINITY;
         }
-        let sum = energy::shape(self.net, self.places, &self.weights, self.by_point);
+        self.net.lift(x, self.places);
+        if self.net.is_outside(self.places) {
+            return f64::INFINITY;
+        }
+        let sum = self.terms.energy(self.places, &self.weights, self.by_point);
         if !sum.is_finite() {
             return f64::INFINITY;
         }

@@ -171,6 +171,11 @@ impl<'a> Net<'a> {
     /// Places all vertices on the surface. On one reached by closest point the unknowns of inner vertices are brought back onto it.
     pub fn place(&self, x: &mut [f64], places: &mut Places) {
         self.place_in_plan(x, places);
+        self.lift(x, places);
+    }
+
+    /// The second half of [`Net::place`]: from the plan onto the surface.
+    pub fn lift(&self, x: &mut [f64], places: &mut Places) {
         if self.ground.is_height() {
             self.ground.lift(&mut places.points, &mut places.slopes);
         } else {
@@ -289,10 +294,14 @@ impl<'a> Net<'a> {
         self.station(x, link.to) - self.station(x, link.from) + link.offset
     }
 
-    /// Whether some vertex has left the domain, or two of the boundary have changed order.
-    pub fn is_outside(&self, x: &[f64], places: &Places) -> bool {
+    /// Whether two neighbours on the boundary have changed order.
+    pub fn is_out_of_order(&self, x: &[f64]) -> bool {
         self.links.iter().any(|link| self.arc(x, link) <= 0.0)
-            || self.near_boundary.iter().any(|&v| !self.ground.contains(places.points[v as usize]))
+    }
+
+    /// Whether some vertex has left the domain.
+    pub fn is_outside(&self, places: &Places) -> bool {
+        self.near_boundary.iter().any(|&v| !self.ground.contains(places.points[v as usize]))
     }
 
     /// Inner vertices that are beyond a smooth loop or nearer to it than `margin`: the vertex, how far, and in which direction that grows.
