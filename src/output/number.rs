@@ -8,14 +8,25 @@ pub fn shortest(value: f64) -> Option<String> {
     if !value.is_finite() {
         return None;
     }
-    let magnitude = value.abs();
-    Some(if magnitude == 0.0 {
-        "0".into()
-    } else if (1e-5..1e16).contains(&magnitude) {
-        value.to_string()
-    } else {
-        format!("{value:e}")
-    })
+    let mut text = String::new();
+    push_shortest(&mut text, value);
+    Some(text)
+}
+
+/// Appends what [`shortest`] gives; nothing for what is not finite.
+pub fn push_shortest(text: &mut String, value: f64) {
+    if value == 0.0 {
+        text.push('0');
+    } else if value.is_finite() {
+        let mut buffer = zmij::Buffer::new();
+        let digits = buffer.format_finite(value);
+        text.push_str(digits.strip_suffix(".0").unwrap_or(digits));
+    }
+}
+
+/// Appends a whole number.
+pub fn push_integer(text: &mut String, value: impl itoa::Integer) {
+    text.push_str(itoa::Buffer::new().format(value));
 }
 
 /// At most `decimals` digits after the point, without trailing zeros: for pictures.
@@ -46,6 +57,21 @@ mod tests {
         assert_eq!(shortest(1.5e-9).as_deref(), Some("1.5e-9"));
         assert_eq!(shortest(f64::NAN), None);
         assert_eq!(shortest(f64::INFINITY), None);
+    }
+
+    #[test]
+    fn shortest_is_that_of_the_standard_library() {
+        let mut random = crate::random::stream(1, 0, 0);
+        let random = (0..200_000).map(|_| f64::from_bits(rand::Rng::next_u64(&mut random)));
+        let bounds = [1e-5, 1e16, 1e-4, 1e15, f64::MIN_POSITIVE, f64::MAX];
+        let around = bounds.into_iter().flat_map(|x| [x.next_down(), x, x.next_up()]);
+        let powers = (-300..300).map(|e| 10f64.powi(e));
+        let wholes = (0..1000u32).map(f64::from);
+        for x in random.chain(around).chain(powers).chain(wholes).filter(|x| x.is_finite() && *x != 0.0) {
+            let plain = (1e-5..1e16).contains(&x.abs());
+            let expected = if plain { x.to_string() } else { format!("{x:e}") };
+            assert_eq!(shortest(x), Some(expected));
+        }
     }
 
     #[test]
