@@ -46,10 +46,10 @@ pub fn run(args: Args, _console: &Console) -> Result<ExitCode, CliError> {
         false => outln!("not feasible (stage {}): {}", row.violation.stage, row.reason),
     }
     standing(&loaded, row);
-    let developed = match Developed::of(&study, &loaded.config, &row.tokens) {
+    let developed = match Developed::of(&study, study.topology(&row.tokens)) {
         Ok(developed) => developed,
-        Err(reason) => {
-            outln!("\nno pattern: {reason}");
+        Err(failure) => {
+            outln!("\nno pattern: {}", failure.reason);
             return Ok(ExitCode::SUCCESS);
         }
     };

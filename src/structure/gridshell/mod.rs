@@ -250,7 +250,8 @@ pub fn analyse_detailed(pattern: &Pattern, params: &StructureParams) -> Result<D
     let response = evaluator.response(height)?;
     let (combinations, mode) = evaluator.details()?;
     drop(evaluator);
-    Ok(Detailed { response, combinations, mode, model: GridshellModel::new(pattern, params, height)? })
+    let model = if height == largest_height(params) { model } else { GridshellModel::new(pattern, params, height)? };
+    Ok(Detailed { response, combinations, mode, model })
 }
 
 fn largest_height(params: &StructureParams) -> f64 {
