@@ -36,6 +36,25 @@ pub fn rounded(value: f64, decimals: usize) -> String {
     if text == "-0" { "0".into() } else { text.into() }
 }
 
+/// Appends what [`rounded`] gives with one decimal, sooner: pictures have many coordinates.
+pub fn push_tenths(text: &mut String, value: f64) {
+    let scaled = value.abs() * 10.0;
+    let whole = scaled.floor();
+    // Near the middle of two tenths the exact decimals decide.
+    if !(scaled < 1e12) || (scaled - whole - 0.5).abs() < 1e-3 {
+        return text.push_str(&rounded(value, 1));
+    }
+    let tenths = if scaled - whole > 0.5 { whole as u64 + 1 } else { whole as u64 };
+    if value < 0.0 && tenths > 0 {
+        text.push('-');
+    }
+    push_integer(text, tenths / 10);
+    if tenths % 10 > 0 {
+        text.push('.');
+        push_integer(text, tenths % 10);
+    }
+}
+
 /// Five significant digits: for people.
 pub fn significant(value: f64) -> String {
     let rounded: f64 = format!("{value:.4e}").parse().unwrap_or(value);
@@ -79,5 +98,11 @@ mod tests {
         assert_eq!(rounded(1.5000, 3), "1.5");
         assert_eq!(rounded(100.0, 2), "100");
         assert_eq!(rounded(-0.0001, 2), "0");
+        let values = (-20_000..20_000).map(|k| f64::from(k) * 0.01);
+        for value in values.chain([1e15, -1e300, f64::NAN, f64::INFINITY, 0.05, -0.05, 0.15, 0.25]) {
+            let mut text = String::new();
+            push_tenths(&mut text, value);
+            assert_eq!(text, rounded(value, 1), "{value}");
+        }
     }
 }

@@ -468,7 +468,18 @@ impl<'a> Evaluator<'a> {
         Ok(response)
     }
 
-    /// Everything about each combination at the current height, and the proved buckling mode.
+    /// Proof of the first buckling factor at the current height; none if there is no positive one.
+    pub fn certificate(&mut self) -> Result<Option<Certificate>, AnalysisError> {
+        let index = self.combination_of(Quantity::BucklingFactor);
+        let Some(mode) = self.mode(index)? else { return Ok(None) };
+        let axial = &self.states[index].first_axial;
+        Ok(Some(Certificate {
+            none_below: self.solver.factorise_shifted(axial, 0.999 * mode.factor).is_ok(),
+            one_here: self.solver.factorise_shifted(axial, 1.001 * mode.factor).is_err(),
+        }))
+    }
+
+    /// Everything about each combination at the current height, and the buckling mode.
     pub fn details(&mut self) -> Result<(Vec<CombinationResult>, Option<BucklingMode>), AnalysisError> {
         let results = (0..self.states.len())
             .map(|s| {
@@ -478,18 +489,13 @@ impl<'a> Evaluator<'a> {
             .collect();
         let index = self.combination_of(Quantity::BucklingFactor);
         let Some(mode) = self.mode(index)? else { return Ok((results, None)) };
-        let axial = &self.states[index].first_axial;
-        let certificate = Certificate {
-            none_below: self.solver.factorise_shifted(axial, 0.999 * mode.factor).is_ok(),
-            one_here: self.solver.factorise_shifted(axial, 1.001 * mode.factor).is_err(),
-        };
         let mut shape = by_node(self.solver.system(), &mode.shape, self.model.frame.nodes().len());
         let size = shape.iter().map(|d| Vector3::new(d[0], d[1], d[2]).norm()).fold(0.0, f64::max);
         if size > 0.0 {
             shape.iter_mut().flatten().for_each(|d| *d /= size);
         }
         let combination = self.states[index].name.clone();
-        Ok((results, Some(BucklingMode { combination, factor: mode.factor, shape, certificate })))
+        Ok((results, Some(BucklingMode { combination, factor: mode.factor, shape })))
     }
 
     fn detail(&self, index: usize, metrics: Metrics) -> CombinationResult {

@@ -205,8 +205,6 @@ pub struct BucklingMode {
     pub factor: f64,
     /// ux … rz of each node, scaled to a largest displacement of 1.
     pub shape: Vec<[f64; 6]>,
-    /// Proof of λ.
-    pub certificate: Certificate,
 }
 
 /// All that the exporters need beside the [`Response`].
@@ -237,8 +235,7 @@ pub fn analyse(pattern: &Pattern, params: &StructureParams) -> Result<Response, 
     evaluator.response(height)
 }
 
-/// Analyses a pattern like [`analyse`] and gives displacements, forces, reactions, and the buckling mode with its
-/// proof as well.
+/// Analyses a pattern like [`analyse`] and gives displacements, forces, reactions, and the buckling mode as well.
 ///
 /// # Errors
 /// See [`AnalysisError`].
@@ -252,6 +249,21 @@ pub fn analyse_detailed(pattern: &Pattern, params: &StructureParams) -> Result<D
     drop(evaluator);
     let model = if height == largest_height(params) { model } else { GridshellModel::new(pattern, params, height)? };
     Ok(Detailed { response, combinations, mode, model })
+}
+
+/// Analyses a pattern like [`analyse`] and proves its buckling factor; none if there is no positive one.
+///
+/// Two factorisations more, so it is not part of [`analyse_detailed`].
+///
+/// # Errors
+/// See [`AnalysisError`].
+pub fn certify(pattern: &Pattern, params: &StructureParams) -> Result<Option<Certificate>, AnalysisError> {
+    refuse_invalid(params)?;
+    let model = GridshellModel::new(pattern, params, largest_height(params))?;
+    let mut evaluator = Evaluator::new(&model, params)?;
+    let height = sizing::height(&mut evaluator, params)?;
+    evaluator.response(height)?;
+    evaluator.certificate()
 }
 
 fn largest_height(params: &StructureParams) -> f64 {
