@@ -10,7 +10,7 @@ use crate::config::Config;
 use crate::domain::{self, Domain, DomainError};
 use crate::evolve::{FAILED, Violation};
 use crate::geometry::check;
-use crate::geometry::limits::{self, LimitExcess};
+use crate::geometry::limits::{self, LimitExcess, Limits};
 use crate::geometry::metrics::{self, Fabrication};
 use crate::geometry::params::{Pinched, RulesParam};
 use crate::geometry::{self, Pattern, PatternParams, Rejection};
@@ -25,7 +25,7 @@ use crate::search::params::EquivalenceParams;
 use crate::search::{Evaluation, Identity, Preview, Problem, RuleOperator, SearchParams, round_significant};
 use crate::skeleton::{self, InitialError};
 use crate::structure::StructureParams;
-use crate::structure::gridshell::{self, AnalysisError, Detailed, Response};
+use crate::structure::gridshell::{self, AnalysisError, Detailed, Proof, Response};
 use crate::surface::{self, Surface, SurfaceError, SurfaceParams};
 use std::path::Path;
 use std::sync::Arc;
@@ -47,6 +47,7 @@ pub struct Study {
     baseline: Code,
     pinched: Pinched,
     pattern: PatternParams,
+    limits: Limits,
     structure: Option<StructureParams>,
     search: SearchParams,
 }
@@ -191,6 +192,7 @@ impl Study {
             supports::check_symmetries(&domain, &symmetries, structure)?;
         }
         let symmetries: Vec<Symmetry> = symmetries.into_iter().map(|(_, symmetry)| symmetry).collect();
+        let limits = Limits::of(&config.pattern.limits, config.pattern.target_length(&domain));
         let objectives =
             config.objectives.minimise.iter().filter_map(|name| objectives::find(name)).collect();
         Ok(Self {
@@ -205,6 +207,7 @@ impl Study {
             initial,
             objectives,
             pinched: config.topology.pinched,
+            limits,
             pattern: config.pattern.clone(),
             structure: config.structure.clone(),
             search: config.search.clone(),
@@ -258,10 +261,14 @@ impl Study {
     ///
     /// # Errors
     /// As [`Study::develop`].
-    pub fn develop_in_detail(&self, topology: CanonicalMesh) -> Result<(Design, Option<Detailed>), Failure> {
+    pub fn develop_in_detail(
+        &self,
+        topology: CanonicalMesh,
+        proof: Proof,
+    ) -> Result<(Design, Option<Detailed>), Failure> {
         let mut design = self.pattern(topology)?;
         let Some(params) = &self.structure else { return Ok((design, None)) };
-        match gridshell::analyse_detailed(&design.pattern, params) {
+        match gridshell::analyse_detailed(&design.pattern, params, proof) {
             Ok(detailed) => {
                 design.response = Some(detailed.response.clone());
                 Ok((design, Some(detailed)))
@@ -279,7 +286,7 @@ impl Study {
         let pattern = geometry::shape(&topology, &self.domain, surface, &self.pattern)?;
         let refused = check::check(&pattern, &self.domain, surface).err();
         let fabrication = metrics::measure(&pattern, &topology);
-        let limits = limits::excesses(&pattern, &self.pattern.limits);
+        let limits = limits::excesses(&pattern, &self.limits);
         let design = Design { topology, pattern, fabrication, limits, response: None };
         match refused {
             None => Ok(design),

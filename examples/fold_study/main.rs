@@ -57,6 +57,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let config = config::load(file, &[])?;
     let study = Study::new(&config, config::folder_of(file))?;
     let bounds = TokenBounds { min: 10, max: 40 };
+    let kept = limits::Limits::of(&config.pattern.limits, config.pattern.target_length(&study.domain));
     let growth = Growth { initial: &study.initial, rules: study.rules, bounds };
     let initialiser = if kind == "aware" { Initialiser::Aware } else { Initialiser::Structured };
     let name = format!("{}_{kind}", file.file_stem().unwrap_or_default().to_string_lossy());
@@ -91,7 +92,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                             println!("  {tokens}: {} panels", pattern.panels.len());
                             count.off += 1;
                         }
-                        let rows = limits::excesses(&pattern, &config.pattern.limits);
+                        let rows = limits::excesses(&pattern, &kept);
                         let edge = rows.iter().find(|row| row.name == "min_edge_m");
                         count
                             .shortest

@@ -11,6 +11,7 @@ use quadrille::output::number::significant;
 use quadrille::output::results::{DesignFiles, Developed};
 use quadrille::output::table::{Cell, Table};
 use quadrille::search::Evaluation;
+use quadrille::structure::gridshell::Proof;
 use quadrille::study::{Effort, Reached, Study};
 use quadrille::surface::SurfaceKind;
 use rayon::prelude::*;
@@ -64,7 +65,7 @@ impl Comparison {
             let code = topology.code;
             let (evaluation, reached) = match save {
                 None => examine(study, topology),
-                Some(save) => match Developed::of(study, topology) {
+                Some(save) => match Developed::of(study, topology, Proof::None) {
                     Err(failure) => (Evaluation::from(&failure), Reached::Nothing),
                     Ok(developed) => {
                         save(developed.files(&id(code)))?;

@@ -13,6 +13,7 @@ use quadrille::output::polygons::Polygons;
 use quadrille::output::results::{DesignFiles, Developed};
 use quadrille::output::vtu::{Grid, vtu};
 use quadrille::output::{atomic, svg};
+use quadrille::structure::gridshell::Proof;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -69,7 +70,7 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     let (loaded, study) = open(&args.folder)?;
     let row = find(&loaded, &args.design)?;
     let id = id(row.code);
-    let developed = Developed::of(&study, study.topology(&row.tokens))
+    let developed = Developed::of(&study, study.topology(&row.tokens), Proof::None)
         .map_err(|failure| CliError::Failed(format!("design {id}: {}", failure.reason)))?;
     if let Some(failure) = &developed.failure {
         console.warn(&format!("design {id} has a pattern, but no structural results: {}", failure.reason));

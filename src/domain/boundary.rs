@@ -68,6 +68,9 @@ impl Cell {
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Stretch([f64; 2]);
 
+/// A step in the parameter back from a kink, onto the piece before it.
+const NEAR: f64 = 1e-6;
+
 /// Cells of a loop where its speed is not even.
 const CELLS: usize = 1024;
 
@@ -181,6 +184,20 @@ impl BoundaryLoop {
         let d = self.derivative(self.parameter(s));
         let length = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
         d.map(|v| v / length)
+    }
+
+    /// Angle by which the curve turns at a corner at arc length `s`, along the surface, −π..π; positive to the left.
+    pub(super) fn turning(&self, s: f64) -> f64 {
+        let t = self.parameter(s);
+        let before = self.derivative((t - NEAR).rem_euclid(self.curve.period()));
+        let after = self.derivative(t);
+        let across: [f64; 3] = std::array::from_fn(|k| {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            before[i] * after[j] - before[j] * after[i]
+        });
+        let along: f64 = (0..3).map(|k| before[k] * after[k]).sum();
+        let size = across.iter().map(|a| a * a).sum::<f64>().sqrt();
+        libm::atan2(size.copysign(across[2]), along)
     }
 
     /// Arc lengths of the corners, ascending, in `0..length`.

@@ -1,5 +1,6 @@
 //! The `[pattern]` table of the config.
 
+use crate::domain::Domain;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -34,6 +35,17 @@ impl Default for PatternParams {
             max_faces: 20_000,
             relax: RelaxParams::default(),
             limits: LimitParams::default(),
+        }
+    }
+}
+
+impl PatternParams {
+    /// Target edge length t of all designs on a domain, m: the given one, or with `density = "panels"` √(A/N) for N panels on the
+    /// area A of the surface (PATTERN §2).
+    pub fn target_length(&self, domain: &Domain) -> f64 {
+        match (self.density, self.target_length_m) {
+            (Density::TargetLength, Some(length)) => length,
+            _ => (domain.surface_area() / self.panels.max(1) as f64).sqrt(),
         }
     }
 }
@@ -88,7 +100,7 @@ pub enum RelaxKind {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct LimitParams {
-    /// Shortest member, in metres; default 2 × section width.
+    /// Shortest member, in metres; default 2 × section width, without a structure a quarter of the target length.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("minimum" = 0))]
     pub min_edge_m: Option<f64>,
@@ -101,20 +113,29 @@ pub struct LimitParams {
     /// Most members at a node.
     #[schemars(extend("minimum" = 4))]
     pub max_valence: usize,
+    /// Fewest members at an inner node: 3 refuses nodes with two members; default 2, off.
+    #[schemars(extend("minimum" = 2, "maximum" = 4))]
+    pub min_valence: usize,
     /// Largest panel, in m²; no limit if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub max_panel_area_m2: Option<f64>,
+    /// Farthest that the boundary may lie from the pattern's, in metres; default a quarter of the target length.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("minimum" = 0))]
+    pub max_boundary_gap_m: Option<f64>,
 }
 
 impl Default for LimitParams {
     fn default() -> Self {
         Self {
             min_edge_m: None,
-            max_edge_factor: 1.75,
+            max_edge_factor: 2.0,
             min_angle_deg: 20.0,
             max_valence: 8,
+            min_valence: 2,
             max_panel_area_m2: None,
+            max_boundary_gap_m: None,
         }
     }
 }

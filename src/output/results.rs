@@ -15,7 +15,7 @@ use crate::config::{self, Config};
 use crate::objectives::METRICS;
 use crate::mesh::CanonicalMesh;
 use crate::search::{Ended, EvaluatedRow, Evaluation, Outcome};
-use crate::structure::gridshell::Detailed;
+use crate::structure::gridshell::{Detailed, Proof};
 use crate::study::{Design, Failure, Reached, Study};
 use rayon::prelude::*;
 use serde_json::Value as Json;
@@ -166,7 +166,7 @@ impl Run<'_> {
 
     fn design_files(&self, row: &EvaluatedRow) -> Result<DesignFiles, ResultsError> {
         let id = id(row.code);
-        match Developed::of(self.study, self.study.topology(&row.tokens)) {
+        match Developed::of(self.study, self.study.topology(&row.tokens), Proof::Certificate) {
             Ok(Developed { failure: Some(failure), .. }) if row.is_feasible() => {
                 Err(ResultsError::Design { id, reason: failure.reason })
             }
@@ -249,9 +249,9 @@ impl Developed {
     ///
     /// # Errors
     /// The failure of one that has no pattern.
-    pub fn of(study: &Study, topology: CanonicalMesh) -> Result<Self, Failure> {
+    pub fn of(study: &Study, topology: CanonicalMesh, proof: Proof) -> Result<Self, Failure> {
         let first_order = study.is_first_order();
-        let failure = match study.develop_in_detail(topology) {
+        let failure = match study.develop_in_detail(topology, proof) {
             Ok((design, results)) => {
                 return Ok(Self { design, results, failure: None, folded: false, first_order });
             }

@@ -2,7 +2,7 @@
 
 use super::metrics::{self, Answer, Metrics};
 use super::model::GridshellModel;
-use super::{AnalysisError, BucklingMode, Certificate, Place, RequirementResult, Response};
+use super::{AnalysisError, BucklingMode, Certificate, Place, Proof, RequirementResult, Response};
 use crate::structure::buckling::{self, Mode, Search};
 use crate::structure::forces::{MemberForces, Utilisation};
 use crate::structure::frame::{by_node, silence};
@@ -468,19 +468,11 @@ impl<'a> Evaluator<'a> {
         Ok(response)
     }
 
-    /// Proof of the first buckling factor at the current height; none if there is no positive one.
-    pub fn certificate(&mut self) -> Result<Option<Certificate>, AnalysisError> {
-        let index = self.combination_of(Quantity::BucklingFactor);
-        let Some(mode) = self.mode(index)? else { return Ok(None) };
-        let axial = &self.states[index].first_axial;
-        Ok(Some(Certificate {
-            none_below: self.solver.factorise_shifted(axial, 0.999 * mode.factor).is_ok(),
-            one_here: self.solver.factorise_shifted(axial, 1.001 * mode.factor).is_err(),
-        }))
-    }
-
     /// Everything about each combination at the current height, and the buckling mode.
-    pub fn details(&mut self) -> Result<(Vec<CombinationResult>, Option<BucklingMode>), AnalysisError> {
+    pub fn details(
+        &mut self,
+        proof: Proof,
+    ) -> Result<(Vec<CombinationResult>, Option<BucklingMode>), AnalysisError> {
         let results = (0..self.states.len())
             .map(|s| {
                 let metrics = self.metrics(s);
@@ -489,6 +481,7 @@ impl<'a> Evaluator<'a> {
             .collect();
         let index = self.combination_of(Quantity::BucklingFactor);
         let Some(mode) = self.mode(index)? else { return Ok((results, None)) };
+        let certificate = (proof == Proof::Certificate).then(|| self.certificate(index, mode.factor));
         let mut shape = by_node(self.solver.system(), &mode.shape, self.model.frame.nodes().len());
         let size = shape.iter().map(|d| Vector3::new(d[0], d[1], d[2]).norm()).fold(0.0, f64::max);
         if size > 0.0 {
