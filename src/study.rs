@@ -227,6 +227,11 @@ impl Study {
         domain::Symmetry::ALL.iter().filter(|kind| holds(kind)).map(|kind| kind.name()).collect()
     }
 
+    /// Code of the initial mesh, of which nothing is changed by a string that expresses nothing.
+    pub fn baseline(&self) -> Code {
+        self.baseline
+    }
+
     /// Reads a string.
     pub fn decode(&self, tokens: &Tokens) -> Decoded {
         grammar::decode(&self.initial, tokens, self.rules)

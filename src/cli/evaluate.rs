@@ -139,9 +139,7 @@ fn write(folder: &Path, comparison: &Comparison, deviations: Option<&Deviations>
     save(folder.join(EVALUATION), &comparison.table().to_csv())?;
     save(folder.join("normalised.csv"), &comparison.normalised().to_csv())?;
     match deviations {
-        Some(deviations) => {
-            save(folder.join("deviations.csv"), &deviations.table(comparison).to_csv())
-        }
+        Some(deviations) => save(folder.join("deviations.csv"), &deviations.table(comparison).to_csv()),
         None => Ok(()),
     }
 }

@@ -1,5 +1,6 @@
 //! The `[domain]` table of the config.
 
+pub use crate::io::LengthUnit;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -81,6 +82,9 @@ pub enum LoopParams {
     Obj {
         /// The file, relative to the config.
         file: PathBuf,
+        /// Unit of the file's coordinates: `m`, `cm`, `mm`, `ft` or `in`.
+        #[serde(default, skip_serializing_if = "LengthUnit::is_metre")]
+        unit: LengthUnit,
         /// Which polyline of the file, from 0.
         #[serde(default)]
         polyline: usize,

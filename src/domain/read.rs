@@ -3,7 +3,7 @@
 use super::curve::{Curve, signed_area};
 use super::error::DomainError;
 use super::params::{CornerRule, Corners, LoopParams};
-use crate::io::obj;
+use crate::io::{LengthUnit, obj};
 use std::path::Path;
 
 /// The curve of a loop, counter-clockwise, and the parameters of its corners.
@@ -35,8 +35,8 @@ pub(super) fn curve(
             let angle = finite(number, || "rotation_deg".to_owned(), *rotation_deg)?.to_radians();
             Ok((Curve::Ellipse { center, axes, turn: [libm::cos(angle), libm::sin(angle)] }, Vec::new()))
         }
-        LoopParams::Obj { file, polyline: index, corners, corner_angle_deg } => {
-            let points = obj_points(number, &base_dir.join(file), *index)?;
+        LoopParams::Obj { file, unit, polyline: index, corners, corner_angle_deg } => {
+            let points = obj_points(number, &base_dir.join(file), *unit, *index)?;
             polyline(number, points, corners, *corner_angle_deg)
         }
     }
@@ -69,8 +69,13 @@ fn point(loop_number: usize, given: &[f64], what: impl Fn() -> String) -> Result
 
 /// The points of a closed polyline of an OBJ file. It is closed when it ends in its first vertex, or at the place of it:
 /// exporters write that vertex twice.
-fn obj_points(loop_number: usize, file: &Path, index: usize) -> Result<Vec<[f64; 3]>, DomainError> {
-    let obj = obj::read(file).map_err(|error| DomainError::File { loop_number, error })?;
+fn obj_points(
+    loop_number: usize,
+    file: &Path,
+    unit: LengthUnit,
+    index: usize,
+) -> Result<Vec<[f64; 3]>, DomainError> {
+    let obj = obj::read(file, unit).map_err(|error| DomainError::File { loop_number, error })?;
     let name = || file.display().to_string();
     let Some(polyline) = obj.polylines.get(index) else {
         let found = obj.polylines.len();

@@ -1,6 +1,7 @@
 //! The `[pattern]` table of the config.
 
 use crate::domain::Domain;
+use crate::domain::params::LengthUnit;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -176,6 +177,9 @@ pub enum InitialMesh {
     File {
         /// The file, relative to the config.
         file: std::path::PathBuf,
+        /// Unit of the file's coordinates: `m`, `cm`, `mm`, `ft` or `in`.
+        #[serde(default, skip_serializing_if = "LengthUnit::is_metre")]
+        unit: LengthUnit,
     },
     /// A rectangular grid of m × n faces, for a domain with four corners and no hole.
     Grid {

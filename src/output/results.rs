@@ -8,12 +8,13 @@ use super::folder::{self, Folder, FolderError, excel_name};
 use super::generations::{generations, operators};
 use super::manifest::{self, Counts, Host, Manifest, Status, timestamp};
 use super::obj::obj;
+use super::obstacles::nearest_misses;
 use super::polygons::Polygons;
 use super::svg::{Shade, svg};
 use super::table::{Dialect, Table};
 use crate::config::{self, Config};
-use crate::objectives::METRICS;
 use crate::mesh::CanonicalMesh;
+use crate::objectives::METRICS;
 use crate::search::{Ended, EvaluatedRow, Evaluation, Outcome};
 use crate::structure::gridshell::{Detailed, Proof};
 use crate::study::{Design, Failure, Reached, Study};
@@ -144,8 +145,8 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Every design of the front in every format, and the copies for Design Explorer; for comparison also the initial
-    /// mesh, where it can be built.
+    /// Every design of the front in every format, and the copies for Design Explorer; without a front the designs that came
+    /// nearest; for comparison also the initial mesh, where it has a pattern.
     fn write_designs(&self, folder: &Folder, threads: usize) -> Result<(), ResultsError> {
         let front = self.front();
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
@@ -154,6 +155,11 @@ impl Run<'_> {
             pool.install(|| front.par_iter().map(|row| self.design_files(row)).collect::<Result<_, _>>())?;
         folder.clear_designs()?;
         let initial = baseline.and_then(|row| self.design_files(row).ok());
+        let misses = nearest_misses(&self.outcome.evaluated);
+        let misses = misses.iter().map(|&row| &self.outcome.evaluated[row]);
+        for (name, bytes) in misses.filter_map(|row| self.design_files(row).ok()).flatten() {
+            folder.write(Path::new(folder::DESIGNS).join(name), &bytes)?;
+        }
         for (name, bytes) in files.iter().chain(&initial).flatten() {
             folder.write(Path::new(folder::DESIGNS).join(name), bytes)?;
             if name.ends_with(".svg") {

@@ -488,7 +488,16 @@ impl<'a> Evaluator<'a> {
             shape.iter_mut().flatten().for_each(|d| *d /= size);
         }
         let combination = self.states[index].name.clone();
-        Ok((results, Some(BucklingMode { combination, factor: mode.factor, shape })))
+        Ok((results, Some(BucklingMode { combination, factor: mode.factor, shape, certificate })))
+    }
+
+    /// Whether λ is the first buckling factor of a combination.
+    fn certificate(&mut self, index: usize, factor: f64) -> Certificate {
+        let axial = &self.states[index].first_axial;
+        Certificate {
+            none_below: self.solver.factorise_shifted(axial, 0.999 * factor).is_ok(),
+            one_here: self.solver.factorise_shifted(axial, 1.001 * factor).is_err(),
+        }
     }
 
     fn detail(&self, index: usize, metrics: Metrics) -> CombinationResult {

@@ -263,7 +263,8 @@ pub fn analyse_detailed(
     let response = evaluator.response(height)?;
     let (combinations, mode) = evaluator.details(proof)?;
     drop(evaluator);
-    let model = if height == largest_height(params) { model } else { GridshellModel::new(pattern, params, height)? };
+    let model =
+        if height == largest_height(params) { model } else { GridshellModel::new(pattern, params, height)? };
     Ok(Detailed { response, combinations, mode, model })
 }
 
