@@ -156,9 +156,10 @@ impl Run<'_> {
         folder.clear_designs()?;
         let initial = baseline.and_then(|row| self.design_files(row).ok());
         let misses = nearest_misses(&self.outcome.evaluated);
-        let misses = misses.iter().map(|&row| &self.outcome.evaluated[row]);
-        for (name, bytes) in misses.filter_map(|row| self.design_files(row).ok()).flatten() {
-            folder.write(Path::new(folder::DESIGNS).join(name), &bytes)?;
+        let of_miss = |&row: &usize| self.design_files(&self.outcome.evaluated[row]).ok();
+        let misses: Vec<DesignFiles> = pool.install(|| misses.par_iter().filter_map(of_miss).collect());
+        for (name, bytes) in misses.iter().flatten() {
+            folder.write(Path::new(folder::DESIGNS).join(name), bytes)?;
         }
         for (name, bytes) in files.iter().chain(&initial).flatten() {
             folder.write(Path::new(folder::DESIGNS).join(name), bytes)?;
