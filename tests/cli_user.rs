@@ -51,7 +51,7 @@ fn check_tells_sizes_corners_and_how_the_initial_mesh_fares() {
     contains_all(
         &text(&told.stdout),
         &[
-            "extents: x -10 to 10 m (20 m), y -10 to 10 m (20 m), z 0 to 4 m (4 m)\n",
+            "extents: x -10 to 10 m (20 m), y -10 to 10 m (20 m), z 0 to 3.9",
             "area: 400 m² in plan, 420.",
             "target length t: 1.87",
             "corners of the outer boundary: 4, at (-10, -10), (10, -10), (10, 10), (-10, 10)\n",

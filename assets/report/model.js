@@ -45,7 +45,7 @@ function mostBalanced(candidates) {
   const gap = (d) => d3.sum(objectives, (o) => { const r = relative(d, o); return r === null ? 4 : r * r; });
   return d3.least(candidates, (a, b) => gap(a) - gap(b) || d3.ascending(a.id, b.id));
 }
-const balanced = mostBalanced(frontDesigns.filter((d) => !d.baseline)) ?? designs.find((d) => !d.baseline && hasMesh(d)) ?? designs[0];
+const balanced = mostBalanced(frontDesigns.filter((d) => !d.baseline)) ?? designs.find((d) => !d.baseline) ?? designs[0];
 
 // Families: the same singularities, but for convex corners, which come with the domain.
 const byValence = (counts, least = 0) => Object.entries(counts).map(([valence, n]) => [Number(valence), n]).filter(([valence]) => valence >= least)

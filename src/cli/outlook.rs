@@ -72,6 +72,8 @@ fn corners(domain: &Domain, label: usize) -> String {
 }
 
 fn extent(axis: &str, low: f64, high: f64) -> String {
+    // What is nothing beside the extent is rounding.
+    let [low, high] = [low, high].map(|end| if end.abs() < 1e-9 * (high - low) { 0.0 } else { end });
     format!("{axis} {} to {} m ({} m)", significant(low), significant(high), significant(high - low))
 }
 

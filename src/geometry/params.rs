@@ -177,7 +177,7 @@ pub enum InitialMesh {
     File {
         /// The file, relative to the config.
         file: std::path::PathBuf,
-        /// Unit of the file's coordinates: `m`, `cm`, `mm`, `ft` or `in`.
+        /// Unit of the file's coordinates: `m` (the default), `cm`, `mm`, `ft` or `in`.
         #[serde(default, skip_serializing_if = "LengthUnit::is_metre")]
         unit: LengthUnit,
     },

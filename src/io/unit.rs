@@ -27,8 +27,8 @@ impl LengthUnit {
             Self::M => length,
             Self::Cm => length / 100.0,
             Self::Mm => length / 1000.0,
-            Self::Ft => length * 0.3048,
-            Self::In => length * 0.0254,
+            Self::Ft => length * 3048.0 / 10_000.0,
+            Self::In => length * 254.0 / 10_000.0,
         }
     }
 

@@ -1,5 +1,7 @@
 //! Numbers as text.
 
+use std::fmt::Write;
+
 /// The shortest text that reads back as the same number; none for what is not finite.
 ///
 /// Very large and very small numbers get an exponent (`1.5e-9`); −0 is written as 0, so that equal numbers are equal
@@ -17,10 +19,12 @@ pub fn shortest(value: f64) -> Option<String> {
 pub fn push_shortest(text: &mut String, value: f64) {
     if value == 0.0 {
         text.push('0');
-    } else if value.is_finite() {
+    } else if (1e-5..1e16).contains(&value.abs()) {
         let mut buffer = zmij::Buffer::new();
         let digits = buffer.format_finite(value);
         text.push_str(digits.strip_suffix(".0").unwrap_or(digits));
+    } else if value.is_finite() {
+        let _ = write!(text, "{value:e}");
     }
 }
 

@@ -49,7 +49,7 @@ impl Obstacles {
         sorted
     }
 
-    /// The most frequent ones in a phrase: `min_angle_deg 20, folds 3`.
+    /// The most frequent ones in a phrase: `min_angle_deg 20, max_valence 3`.
     fn phrase(&self) -> String {
         let counted: Vec<String> =
             self.counted().iter().take(5).map(|(name, count)| format!("{name} {count}")).collect();
@@ -93,7 +93,7 @@ pub fn initial_mesh(violation: Violation, reason: &str) -> String {
 fn failure(stage: u8) -> &'static str {
     match stage {
         2 => "unstable or a mechanism",
-        3 => "folds",
+        3 => "folds or vertices on one place",
         4 => "refused by topology",
         5 => "too many faces",
         _ => "failed",
@@ -148,14 +148,19 @@ mod tests {
             row(3, 1.0, "7 of 300 panels folded"),
         ];
         let obstacles = Obstacles::of(&rows);
-        let expected = [("min_angle_deg", 2), ("folds", 1), ("min_edge_m", 1)];
+        let expected = [("min_angle_deg", 2), ("folds or vertices on one place", 1), ("min_edge_m", 1)];
         assert_eq!(obstacles.counted(), expected.map(|(name, count)| (name.to_owned(), count)));
         assert!(
-            obstacles.none_feasible().contains("of 4 designs fail: min_angle_deg 2, folds 1, min_edge_m 1.")
+            obstacles.none_feasible().contains(
+                "of 4 designs fail: min_angle_deg 2, folds or vertices on one place 1, min_edge_m 1."
+            )
         );
         let first = obstacles.first_generation();
         assert!(first.starts_with("first generation: 1 of 4 designs feasible; "), "{first}");
-        assert!(first.contains("min_angle_deg 2, folds 1, min_edge_m 1 "), "{first}");
+        assert!(
+            first.contains("min_angle_deg 2, folds or vertices on one place 1, min_edge_m 1 "),
+            "{first}"
+        );
     }
 
     #[test]

@@ -80,7 +80,7 @@ pub enum SurfaceParams {
     Mesh {
         /// The file, relative to the config.
         file: PathBuf,
-        /// Unit of the file's coordinates: `m`, `cm`, `mm`, `ft` or `in`.
+        /// Unit of the file's coordinates: `m` (the default), `cm`, `mm`, `ft` or `in`.
         #[serde(default, skip_serializing_if = "LengthUnit::is_metre")]
         unit: LengthUnit,
     },
