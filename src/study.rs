@@ -169,7 +169,7 @@ impl Study {
     /// See [`StudyError`]; nothing has been evaluated then.
     pub fn new(config: &Config, base_dir: &Path) -> Result<Self, StudyError> {
         let surface = surface::build(&config.surface, base_dir)?;
-        let domain = Domain::resolve(&config.domain, &surface, base_dir)?;
+        let domain = Domain::resolve_for(&config.domain, &surface, base_dir, config.pattern.grain())?;
         let initial = initial_mesh(config, &domain, base_dir)?;
         let symmetries = domain.symmetries(&config.domain.symmetries)?;
         if let Some(structure) = &config.structure {
@@ -235,8 +235,8 @@ impl Study {
             return Err(rejection.into());
         }
         let pattern = geometry::develop(&topology, &self.domain, self.surface.as_ref(), &self.pattern)?;
-        let fabrication = metrics::measure(&pattern, &topology);
-        let limits = limits::excesses(&pattern, &self.limits);
+        let fabrication = metrics::measure(&pattern, &topology, &self.domain);
+        let limits = limits::excesses(&(&fabrication).into(), &self.limits);
         let worthwhile = match effort {
             Effort::Pattern => false,
             Effort::Promising => limits.iter().all(|limit| limit.excess <= 0.0),

@@ -34,7 +34,7 @@ fn fingerprint(court: &Study, mesh: &CanonicalMesh) -> String {
         return rejection.to_string();
     }
     match shape(mesh, domain, surface.as_ref(), &params()) {
-        Ok(pattern) => format!("{:?} {:?}", metrics::measure(&pattern, mesh), pattern.positions),
+        Ok(pattern) => format!("{:?} {:?}", metrics::measure(&pattern, mesh, domain), pattern.positions),
         Err(rejection) => rejection.to_string(),
     }
 }

@@ -74,7 +74,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         if !codes.insert(mesh.code) {
             continue;
         }
-        match topological_rejection(&mesh, &study.domain, Pinched::Reject) {
+        match topological_rejection(&mesh, &study.domain, Pinched::Reject, None) {
             Some(Rejection::Flat { .. }) => count.flat += 1,
             Some(Rejection::Pinched { .. }) => count.pinched += 1,
             Some(_) => count.other += 1,
@@ -92,7 +92,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                             println!("  {tokens}: {} panels", pattern.panels.len());
                             count.off += 1;
                         }
-                        let rows = limits::excesses(&pattern, &kept);
+                        let rows = limits::excesses(&limits::Extremes::of(&pattern, &study.domain), &kept);
                         let edge = rows.iter().find(|row| row.name == "min_edge_m");
                         count
                             .shortest
