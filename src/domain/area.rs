@@ -3,9 +3,12 @@
 use super::curve::Curve;
 use crate::surface::{Surface, SurfaceKind};
 
-/// Four-point Gauss rules across each band, and along each part of a scan line. Always as many, however long the part: so that a
-/// rounding error in a length cannot change the rule, and a turned or mirrored domain has the same points.
-const RULES: [usize; 2] = [6, 12];
+/// Four-point Gauss rules across all bands together, and along each part of a scan line. Always as many, however long the part: so
+/// that a rounding error in a length cannot change the rule, and a turned or mirrored domain has the same points.
+const RULES: [usize; 2] = [40, 12];
+
+/// The least across one band.
+const LEAST_RULES: usize = 3;
 
 /// Polylines with more points than this together do not part the domain into bands at each of them: they are drawn curves.
 const MOST_BANDS: usize = 24;
@@ -51,7 +54,9 @@ impl Mean {
 
 /// Adds 1/|n_z| on all scan lines along one axis (0: x, 1: y).
 fn scan(curves: &[Curve], surface: &dyn Surface, axis: usize, mean: &mut Mean) {
-    for (level, breadth) in bands(curves, 1 - axis).windows(2).flat_map(|b| stations(b[0], b[1], RULES[0])) {
+    let bands = bands(curves, 1 - axis);
+    let rules = (RULES[0] / (bands.len() - 1).max(1)).max(LEAST_RULES);
+    for (level, breadth) in bands.windows(2).flat_map(|b| stations(b[0], b[1], rules)) {
         let mut crossings: Vec<f64> = curves.iter().flat_map(|c| c.crossings(axis, level)).collect();
         crossings.sort_by(f64::total_cmp);
         for part in crossings.chunks_exact(2) {

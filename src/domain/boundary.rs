@@ -329,17 +329,15 @@ impl BoundaryLoop {
         }) && chord > 0.0
     }
 
-    /// Farthest that the curve from arc length `from` counter-clockwise to `to` lies from its chord in plan, m.
+    /// Farthest that the curve from arc length `from` counter-clockwise to `to` lies from its chord in plan, m; 0 within rounding.
     pub fn gap(&self, from: f64, to: f64) -> f64 {
         let start = self.parameter(from);
         let end = self.parameter(to);
         let end = if end > start { end } else { end + self.curve.period() };
         let (a, b) = (self.curve.point(start), self.curve.point(end));
-        self.curve
-            .probes(start, end)
-            .map(|t| closest_on_segment(self.curve.point(t), a, b, 2).0)
-            .fold(0.0, f64::max)
-            .sqrt()
+        let distance2 = |t| closest_on_segment(self.curve.point(t), a, b, 2).0;
+        let gap = self.curve.probes(start, end).map(distance2).fold(0.0, f64::max).sqrt();
+        if gap > 1e-9 * self.length { gap } else { 0.0 }
     }
 
     /// Enclosed plan area, m².
