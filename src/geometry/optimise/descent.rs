@@ -136,6 +136,13 @@ pub fn descend(
             break;
         }
     }
+    if std::env::var("QDBG").is_ok() {
+        eprintln!(
+            "    descend {} unknowns: {steps} steps, E {value}, small {small}, pairs {}",
+            x.len(),
+            pairs.len()
+        );
+    }
     value
 }
 

@@ -2,7 +2,7 @@
 //! neither the scale nor the place of a domain decides anything (PATTERN §3).
 
 use crate::domain::{BoundaryLoop, Domain};
-use crate::geometry::vector::{Vec3, dot, scale, sub};
+use crate::geometry::vector::{Vec3, scale, sub};
 use crate::surface::{Surface, SurfaceKind};
 
 /// The surface and the boundary curves of a domain in units of the target length.

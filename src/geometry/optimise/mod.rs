@@ -353,6 +353,13 @@ impl Energy for Shape<'_, '_> {
     fn value(&mut self, x: &mut [f64], gradient: &mut [f64]) -> f64 {
         self.net.place(x, self.places);
         if self.net.is_outside(x, self.places) {
+            if std::env::var("QDBG").is_ok() {
+                eprintln!(
+                    "outside: links {} of {}",
+                    self.net.links.iter().filter(|l| self.net.arc(x, l) <= 0.0).count(),
+                    self.net.links.len()
+                );
+            }
             return f64::INFINITY;
         }
         let sum = energy::shape(self.net, self.places, &self.weights, self.by_point);
