@@ -184,7 +184,7 @@ impl Study {
     /// See [`StudyError`]; nothing has been evaluated then.
     pub fn new(config: &Config, base_dir: &Path) -> Result<Self, StudyError> {
         let surface = surface::build(&config.surface, base_dir)?;
-        let domain = Domain::resolve(&config.domain, &surface, base_dir)?;
+        let domain = Domain::resolve_for(&config.domain, &surface, base_dir, config.pattern.grain())?;
         let initial = initial_mesh(config, &domain, base_dir)?;
         let symmetries = domain.symmetries(&config.domain.symmetries)?;
         if let Some(structure) = &config.structure {
@@ -247,7 +247,8 @@ impl Study {
     /// # Errors
     /// The [`Failure`] of the first stage that refuses the design.
     pub fn develop(&self, topology: CanonicalMesh, effort: Effort) -> Result<Design, Failure> {
-        let mut design = self.pattern(topology)?;
+        // Who wants every number gets them of designs too that break a limit in every pattern.
+        let mut design = self.pattern(topology, (effort != Effort::Everything).then_some(&self.limits))?;
         let worthwhile = match effort {
             Effort::Pattern => false,
             Effort::Promising => design.limits.iter().all(|limit| limit.excess <= 0.0),
@@ -271,7 +272,7 @@ impl Study {
         topology: CanonicalMesh,
         proof: Proof,
     ) -> Result<(Design, Option<Detailed>), Failure> {
-        let mut design = self.pattern(topology)?;
+        let mut design = self.draw(topology)?;
         let Some(params) = &self.structure else { return Ok((design, None)) };
         match gridshell::analyse_detailed(&design.pattern, params, proof) {
             Ok(detailed) => {
@@ -282,16 +283,26 @@ impl Study {
         }
     }
 
-    /// A topology with its pattern and its measures, the structure not asked.
-    fn pattern(&self, topology: CanonicalMesh) -> Result<Design, Failure> {
-        if let Some(rejection) = geometry::topological_rejection(&topology, &self.domain, self.pinched) {
+    /// A topology with its pattern and its measures, whatever limit it breaks, the structure not asked: to look at.
+    ///
+    /// # Errors
+    /// The [`Failure`] of one without a sound pattern.
+    pub fn draw(&self, topology: CanonicalMesh) -> Result<Design, Failure> {
+        self.pattern(topology, None)
+    }
+
+    /// The same, but refused at once where it would break `limits` in every pattern.
+    fn pattern(&self, topology: CanonicalMesh, limits: Option<&Limits>) -> Result<Design, Failure> {
+        if let Some(rejection) =
+            geometry::topological_rejection(&topology, &self.domain, self.pinched, limits)
+        {
             return Err(rejection.into());
         }
         let surface = self.surface.as_ref();
         let pattern = geometry::shape(&topology, &self.domain, surface, &self.pattern)?;
         let refused = check::check(&pattern, &self.domain, surface).err();
-        let fabrication = metrics::measure(&pattern, &topology);
-        let limits = limits::excesses(&pattern, &self.limits);
+        let fabrication = metrics::measure(&pattern, &topology, &self.domain);
+        let limits = limits::excesses(&(&fabrication).into(), &self.limits);
         let design = Design { topology, pattern, fabrication, limits, response: None };
         match refused {
             None => Ok(design),
@@ -409,7 +420,8 @@ impl Problem for Study {
     fn identify(&self, tokens: &Tokens) -> Identity {
         let decoded = self.decode(tokens);
         let topology = canonical_mesh_under(&decoded.mesh, &self.symmetries);
-        let rejected = geometry::topological_rejection(&topology, &self.domain, self.pinched)
+        let limits = (topology.code != self.baseline).then_some(&self.limits);
+        let rejected = geometry::topological_rejection(&topology, &self.domain, self.pinched, limits)
             .map(Failure::from)
             .map(|failure| (failure.violation, failure.reason));
         Identity {

@@ -4,7 +4,7 @@ use quadrille::config::Config;
 use quadrille::domain::Domain;
 use quadrille::geometry::params::Density;
 use quadrille::output::number::significant;
-use quadrille::study::{Design, Effort, Failure, Reached, Study};
+use quadrille::study::{Design, Failure, Reached, Study};
 
 /// Corners of a loop that are listed by their places; of more only the first.
 const LISTED: usize = 12;
@@ -13,7 +13,7 @@ const LISTED: usize = 12;
 ///
 /// Develops the initial mesh; its structure is not analysed.
 pub fn outlook(study: &Study, config: &Config) -> Vec<String> {
-    let developed = study.develop(study.topology(&Default::default()), Effort::Pattern);
+    let developed = study.draw(study.topology(&Default::default()));
     let drawn = match &developed {
         Ok(design) => Some(design),
         Err(Failure { reached: Reached::Folded(design) | Reached::Pattern(design), .. }) => Some(&**design),

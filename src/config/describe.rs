@@ -114,7 +114,9 @@ fn describe_unit(unit: LengthUnit) -> &'static str {
 fn describe_corners(corners: &Corners, angle: f64) -> String {
     match corners {
         Corners::Rule(CornerRule::All) => "each a corner".into(),
-        Corners::Rule(CornerRule::Auto) => format!("corners where it turns by more than {angle}°"),
+        Corners::Rule(CornerRule::Auto) => {
+            format!("corners where it turns by more than {angle}° within a tenth of the target length")
+        }
         Corners::Indices(indices) => format!("corners at points {indices:?}"),
     }
 }

@@ -30,6 +30,14 @@ impl Curve {
         }
     }
 
+    /// The points of a polyline; an ellipse has none.
+    pub(super) fn points(&self) -> &[[f64; 3]] {
+        match self {
+            Self::Polyline { points } => points,
+            Self::Ellipse { .. } => &[],
+        }
+    }
+
     /// The parameters between which the curve is smooth, the period included.
     pub(super) fn breaks(&self) -> Vec<f64> {
         match self {
@@ -56,6 +64,27 @@ impl Curve {
             Self::Ellipse { center, axes, turn } => {
                 let (u, v) = (axes[0] * libm::cos(t), axes[1] * libm::sin(t));
                 [center[0] + u * turn[0] - v * turn[1], center[1] + u * turn[1] + v * turn[0], center[2]]
+            }
+        }
+    }
+
+    /// Parameters between two at which the curve may be farthest from the chord between them: the kinks of a polyline; seven
+    /// of an ellipse, of which the middle one is the farthest from the chord of less than half of it.
+    pub(super) fn probes(&self, start: f64, end: f64) -> impl Iterator<Item = f64> {
+        let is_polyline = matches!(self, Self::Polyline { .. });
+        let count = if is_polyline { (end.ceil() - start.floor()) as usize } else { 8 };
+        (1..count).map(move |i| {
+            if is_polyline { start.floor() + i as f64 } else { start + (end - start) * i as f64 / 8.0 }
+        })
+    }
+
+    /// The same curve at height 0.
+    pub(super) fn flattened(&self) -> Self {
+        let down = |[x, y, _]: &[f64; 3]| [*x, *y, 0.0];
+        match self {
+            Self::Polyline { points } => Self::Polyline { points: points.iter().map(down).collect() },
+            Self::Ellipse { center, axes, turn } => {
+                Self::Ellipse { center: down(center), axes: *axes, turn: *turn }
             }
         }
     }

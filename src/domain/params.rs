@@ -52,7 +52,8 @@ pub enum LoopParams {
         /// Which points are corners.
         #[serde(default)]
         corners: Corners,
-        /// With `corners = "auto"`: a point is a corner where the curve turns by more than this, in degrees.
+        /// With `corners = "auto"`: a corner is where the curve turns by more than this within a tenth of the target length, in
+        /// degrees.
         #[serde(default = "default_corner_angle")]
         #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 180))]
         corner_angle_deg: f64,
@@ -91,7 +92,8 @@ pub enum LoopParams {
         /// Which points are corners.
         #[serde(default = "Corners::auto")]
         corners: Corners,
-        /// With `corners = "auto"`: a point is a corner where the curve turns by more than this, in degrees.
+        /// With `corners = "auto"`: a corner is where the curve turns by more than this within a tenth of the target length, in
+        /// degrees.
         #[serde(default = "default_corner_angle")]
         #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 180))]
         corner_angle_deg: f64,
@@ -114,7 +116,7 @@ pub enum Corners {
 pub enum CornerRule {
     /// Every point is a corner.
     All,
-    /// Points where the curve turns by more than `corner_angle_deg`.
+    /// Places where the curve turns by more than `corner_angle_deg` within a tenth of the target length.
     Auto,
 }
 

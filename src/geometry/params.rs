@@ -1,7 +1,7 @@
 //! The `[pattern]` table of the config.
 
-use crate::domain::Domain;
 use crate::domain::params::LengthUnit;
+use crate::domain::{Domain, Grain};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -41,13 +41,18 @@ impl Default for PatternParams {
 }
 
 impl PatternParams {
+    /// How fine the patterns are, as the domain takes it.
+    pub fn grain(&self) -> Grain {
+        match (self.density, self.target_length_m) {
+            (Density::TargetLength, Some(length)) => Grain::Length(length),
+            _ => Grain::Panels(self.panels),
+        }
+    }
+
     /// Target edge length t of all designs on a domain, m: the given one, or with `density = "panels"` √(A/N) for N panels on the
     /// area A of the surface (PATTERN §2).
     pub fn target_length(&self, domain: &Domain) -> f64 {
-        match (self.density, self.target_length_m) {
-            (Density::TargetLength, Some(length)) => length,
-            _ => (domain.surface_area() / self.panels.max(1) as f64).sqrt(),
-        }
+        self.grain().length(domain.surface_area())
     }
 }
 
@@ -68,9 +73,9 @@ pub const FREE_SWEEPS: usize = 500;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct RelaxParams {
-    /// Weights of the smoothing; default on a free surface `uniform`.
+    /// How vertices are moved; default `optimise`, on a free surface `uniform`.
     pub kind: RelaxKind,
-    /// Number of Jacobi sweeps; default on a free surface 500.
+    /// Number of Jacobi sweeps of the smoothing kinds; default 100, on a free surface 500.
     pub sweeps: usize,
     /// Share of the way to the target that each sweep goes, in 0..1.
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 1))]
@@ -79,14 +84,16 @@ pub struct RelaxParams {
 
 impl Default for RelaxParams {
     fn default() -> Self {
-        Self { kind: RelaxKind::Area, sweeps: 100, damping: 0.5 }
+        Self { kind: RelaxKind::Optimise, sweeps: 100, damping: 0.5 }
     }
 }
 
-/// Weights of the smoothing.
+/// How a pattern is relaxed: optimised, smoothed with one of three weights (the paper's), or solved for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RelaxKind {
+    /// An energy with barriers at the limits, densities and geometry together (PATTERN §3); needs a surface.
+    Optimise,
     /// Mean of the neighbours.
     Uniform,
     /// Mean of the centroids of the adjacent panels, weighted by their areas.
