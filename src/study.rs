@@ -9,6 +9,7 @@ mod supports;
 use crate::config::Config;
 use crate::domain::{self, Domain, DomainError};
 use crate::evolve::{FAILED, Violation};
+use crate::geometry::check;
 use crate::geometry::limits::{self, LimitExcess, Limits};
 use crate::geometry::metrics::{self, Fabrication};
 use crate::geometry::params::{Pinched, RulesParam};
@@ -24,7 +25,7 @@ use crate::search::params::EquivalenceParams;
 use crate::search::{Evaluation, Identity, Preview, Problem, RuleOperator, SearchParams, round_significant};
 use crate::skeleton::{self, InitialError};
 use crate::structure::StructureParams;
-use crate::structure::gridshell::{self, AnalysisError, Response};
+use crate::structure::gridshell::{self, AnalysisError, Detailed, Proof, Response};
 use crate::surface::{self, Surface, SurfaceError, SurfaceParams};
 use std::path::Path;
 use std::sync::Arc;
@@ -140,8 +141,8 @@ pub struct Design {
     pub response: Option<Response>,
 }
 
-/// Why a design has no numbers: data, ranked by the stage it reached (RUN "Failures are data").
-#[derive(Clone, Debug, PartialEq)]
+/// Why a design is not whole: data, ranked by the stage it reached (RUN "Failures are data").
+#[derive(Clone, Debug)]
 pub struct Failure {
     /// Stage and measure.
     pub violation: Violation,
@@ -149,6 +150,20 @@ pub struct Failure {
     pub reason: String,
     /// Whether the structure was analysed.
     pub structural: bool,
+    /// What there is of it: nothing without a pattern.
+    pub reached: Reached,
+}
+
+/// How far a design came that is not whole.
+#[derive(Clone, Debug, Default)]
+pub enum Reached {
+    /// It has no pattern.
+    #[default]
+    Nothing,
+    /// Its pattern is folded or leaves the domain: to be looked at, not to be measured.
+    Folded(Box<Design>),
+    /// Its pattern is sound, its structure gives no answer.
+    Pattern(Box<Design>),
 }
 
 /// Which designs are worth a structural analysis.
@@ -169,7 +184,7 @@ impl Study {
     /// See [`StudyError`]; nothing has been evaluated then.
     pub fn new(config: &Config, base_dir: &Path) -> Result<Self, StudyError> {
         let surface = surface::build(&config.surface, base_dir)?;
-        let domain = Domain::resolve(&config.domain, &surface, base_dir)?;
+        let domain = Domain::resolve_for(&config.domain, &surface, base_dir, config.pattern.grain())?;
         let initial = initial_mesh(config, &domain, base_dir)?;
         let symmetries = domain.symmetries(&config.domain.symmetries)?;
         if let Some(structure) = &config.structure {
@@ -212,6 +227,11 @@ impl Study {
         domain::Symmetry::ALL.iter().filter(|kind| holds(kind)).map(|kind| kind.name()).collect()
     }
 
+    /// Code of the initial mesh, of which nothing is changed by a string that expresses nothing.
+    pub fn baseline(&self) -> Code {
+        self.baseline
+    }
+
     /// Reads a string.
     pub fn decode(&self, tokens: &Tokens) -> Decoded {
         grammar::decode(&self.initial, tokens, self.rules)
@@ -228,35 +248,79 @@ impl Study {
     /// The [`Failure`] of the first stage that refuses the design.
     pub fn develop(&self, topology: CanonicalMesh, effort: Effort) -> Result<Design, Failure> {
         // Who wants every number gets them of designs too that break a limit in every pattern.
-        let limits = (effort != Effort::Everything).then_some(&self.limits);
+        let mut design = self.pattern(topology, (effort != Effort::Everything).then_some(&self.limits))?;
+        let worthwhile = match effort {
+            Effort::Pattern => false,
+            Effort::Promising => design.limits.iter().all(|limit| limit.excess <= 0.0),
+            Effort::Everything => true,
+        };
+        if let (true, Some(params)) = (worthwhile, &self.structure) {
+            match gridshell::analyse(&design.pattern, params) {
+                Ok(response) => design.response = Some(response),
+                Err(error) => return Err(Failure::of_structure(error, design)),
+            }
+        }
+        Ok(design)
+    }
+
+    /// As [`Study::develop`] with [`Effort::Everything`], and with all results of the structure: for files.
+    ///
+    /// # Errors
+    /// As [`Study::develop`].
+    pub fn develop_in_detail(
+        &self,
+        topology: CanonicalMesh,
+        proof: Proof,
+    ) -> Result<(Design, Option<Detailed>), Failure> {
+        let mut design = self.draw(topology)?;
+        let Some(params) = &self.structure else { return Ok((design, None)) };
+        match gridshell::analyse_detailed(&design.pattern, params, proof) {
+            Ok(detailed) => {
+                design.response = Some(detailed.response.clone());
+                Ok((design, Some(detailed)))
+            }
+            Err(error) => Err(Failure::of_structure(error, design)),
+        }
+    }
+
+    /// A topology with its pattern and its measures, whatever limit it breaks, the structure not asked: to look at.
+    ///
+    /// # Errors
+    /// The [`Failure`] of one without a sound pattern.
+    pub fn draw(&self, topology: CanonicalMesh) -> Result<Design, Failure> {
+        self.pattern(topology, None)
+    }
+
+    /// The same, but refused at once where it would break `limits` in every pattern.
+    fn pattern(&self, topology: CanonicalMesh, limits: Option<&Limits>) -> Result<Design, Failure> {
         if let Some(rejection) =
             geometry::topological_rejection(&topology, &self.domain, self.pinched, limits)
         {
             return Err(rejection.into());
         }
-        let pattern = geometry::develop(&topology, &self.domain, self.surface.as_ref(), &self.pattern)?;
-        let fabrication = metrics::measure(&pattern, &topology);
-        let limits = limits::excesses(&pattern, &self.limits);
-        let worthwhile = match effort {
-            Effort::Pattern => false,
-            Effort::Promising => limits.iter().all(|limit| limit.excess <= 0.0),
-            Effort::Everything => true,
-        };
-        let response = match &self.structure {
-            Some(params) if worthwhile => Some(gridshell::analyse(&pattern, params)?),
-            _ => None,
-        };
-        Ok(Design { topology, pattern, fabrication, limits, response })
+        let surface = self.surface.as_ref();
+        let pattern = geometry::shape(&topology, &self.domain, surface, &self.pattern)?;
+        let refused = check::check(&pattern, &self.domain, surface).err();
+        let fabrication = metrics::measure(&pattern, &topology, &self.domain);
+        let limits = limits::excesses(&(&fabrication).into(), &self.limits);
+        let design = Design { topology, pattern, fabrication, limits, response: None };
+        match refused {
+            None => Ok(design),
+            Some(rejection @ Rejection::NotFinite { .. }) => Err(rejection.into()),
+            Some(rejection) => {
+                Err(Failure { reached: Reached::Folded(Box::new(design)), ..rejection.into() })
+            }
+        }
+    }
+
+    /// Whether the structure is analysed in first order.
+    pub fn is_first_order(&self) -> bool {
+        self.structure.as_ref().is_some_and(|structure| structure.order == 1)
     }
 
     /// Everything that is known of a developed design, as the search and the files take it.
     pub fn evaluation(&self, design: &Design) -> Evaluation {
-        let analysed = AnalysedDesign {
-            topology: &design.topology,
-            fabrication: &design.fabrication,
-            response: design.response.as_ref(),
-        };
-        let metrics = objectives::measure(&analysed).into_iter().map(|m| m.map(round_significant)).collect();
+        let analysed = design.analysed();
         let objectives: Vec<f64> =
             self.objectives.iter().filter_map(|objective| (objective.value)(&analysed)).collect();
         let (measure, reason) = design.excess();
@@ -264,7 +328,7 @@ impl Study {
             violation: stage_1(measure),
             reason,
             objectives: if objectives.len() == self.objectives.len() { objectives } else { Vec::new() },
-            metrics,
+            metrics: design.metrics(),
             structural: design.response.is_some(),
         }
         .sanitised(self.objectives.len())
@@ -303,7 +367,7 @@ impl Study {
     pub fn evaluate_topology(&self, topology: CanonicalMesh, effort: Effort) -> Evaluation {
         match self.develop(topology, effort) {
             Ok(design) => self.evaluation(&design),
-            Err(failure) => failure.into(),
+            Err(failure) => (&failure).into(),
         }
     }
 }
@@ -319,6 +383,20 @@ fn initial_mesh(config: &Config, domain: &Domain, base_dir: &Path) -> Result<Ini
 }
 
 impl Design {
+    /// What the metrics are taken from.
+    fn analysed(&self) -> AnalysedDesign<'_> {
+        AnalysedDesign {
+            topology: &self.topology,
+            fabrication: &self.fabrication,
+            response: self.response.as_ref(),
+        }
+    }
+
+    /// All metrics that it has, in the order of the registry, rounded as they are compared and written.
+    fn metrics(&self) -> Vec<Option<f64>> {
+        objectives::measure(&self.analysed()).into_iter().map(|m| m.map(round_significant)).collect()
+    }
+
     /// Σ of the relative excesses over limits and requirements (stage 1), and what is exceeded, in words.
     pub fn excess(&self) -> (f64, String) {
         let limits = self.limits.iter().map(|l| (l.name.to_owned(), l.value, l.limit, l.excess));
@@ -371,8 +449,7 @@ impl Problem for Study {
             Ok(design) => design,
             Err(failure) => return Preview::unknown(failure.violation),
         };
-        let analysed =
-            AnalysedDesign { topology: &design.topology, fabrication: &design.fabrication, response: None };
+        let analysed = design.analysed();
         let value = |objective: &&Metric| (objective.value)(&analysed).map(round_significant);
         Preview {
             violation: stage_1(design.excess().0),
@@ -392,27 +469,37 @@ impl Problem for Study {
 impl From<Rejection> for Failure {
     fn from(rejection: Rejection) -> Self {
         let violation = Violation::new(rejection.stage(), rejection.measure());
-        Self { violation, reason: rejection.to_string(), structural: false }
+        Self { violation, reason: rejection.to_string(), structural: false, reached: Reached::Nothing }
     }
 }
 
-impl From<AnalysisError> for Failure {
-    fn from(error: AnalysisError) -> Self {
+impl Failure {
+    /// Of a design whose structure gives no answer.
+    fn of_structure(error: AnalysisError, design: Design) -> Self {
         let stage = match &error {
             AnalysisError::Mechanism(_) | AnalysisError::Unstable { .. } => 2,
             _ => FAILED,
         };
-        Self { violation: Violation::new(stage, 1.0), reason: error.to_string(), structural: true }
+        Self {
+            violation: Violation::new(stage, 1.0),
+            reason: error.to_string(),
+            structural: true,
+            reached: Reached::Pattern(Box::new(design)),
+        }
     }
 }
 
-impl From<Failure> for Evaluation {
-    fn from(failure: Failure) -> Self {
+impl From<&Failure> for Evaluation {
+    fn from(failure: &Failure) -> Self {
+        let metrics = match &failure.reached {
+            Reached::Pattern(design) => design.metrics(),
+            Reached::Nothing | Reached::Folded(_) => vec![None; METRICS.len()],
+        };
         Self {
             violation: failure.violation,
-            reason: failure.reason,
+            reason: failure.reason.clone(),
             objectives: Vec::new(),
-            metrics: vec![None; METRICS.len()],
+            metrics,
             structural: failure.structural,
         }
     }

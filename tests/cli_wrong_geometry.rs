@@ -131,7 +131,7 @@ fn what_is_seldom_meant_is_told() {
     let mesh = "kind = \"mesh\"\nfile = \"mm.obj\"";
     assert!(
         surface(mesh, "")
-            .contains("the mesh is 16971 m across, the domain 14.142136 m: files are read in metres")
+            .contains("the mesh is 16971 m across, the domain 14.142136 m: is its file in another unit? (surface.unit = \"mm\"")
     );
     // 100 panels of 1 m.
     let limit = |least: f64| format!("[pattern]\npanels = 100\nlimits = {{ min_edge_m = {least} }}\n");

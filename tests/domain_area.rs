@@ -47,9 +47,9 @@ fn closed_forms() {
         )
         .surface_area()
     };
-    for radius in [3.0f64, 8.0, 9.9] {
+    for (radius, tolerance) in [(3.0f64, 1e-8), (8.0, 1e-6), (9.9, 1e-5)] {
         let height = 10.0 - (100.0 - radius * radius).sqrt();
-        assert!(off(cap(radius), 2.0 * PI * 10.0 * height) < 1e-6, "{radius}: {}", cap(radius));
+        assert!(off(cap(radius), 2.0 * PI * 10.0 * height) < tolerance, "{radius}: {}", cap(radius));
     }
     assert!(off(cap(10.0), 200.0 * PI) < 1e-4, "half sphere: {}", cap(10.0));
 
@@ -70,7 +70,8 @@ fn closed_forms() {
     assert!(off(ell.surface_area(), 1.25 * ell.area()) < 1e-14);
 }
 
-/// Against 0.01 m midpoints of the gradient's size.
+/// The number is that of a grid of 15,544 × 11,720 points, 6 mm apart, in a program of its own; the grid here is the coarser
+/// one of the prototype of PATTERN.
 #[test]
 fn the_great_court() {
     let walls = [[-36.625, -51.125], [36.625, -51.125], [36.625, 46.025], [-36.625, 46.025]];
@@ -89,7 +90,8 @@ fn the_great_court() {
         }
     }
     let sampled = court.area() * sum / count;
-    assert!(off(court.surface_area(), sampled) < 2e-5, "{} {sampled}", court.surface_area());
+    assert!(off(court.surface_area(), sampled) < 1e-5, "{} {sampled}", court.surface_area());
+    assert!(off(court.surface_area(), 6180.2535) < 2e-6, "{}", court.surface_area());
     let params = PatternParams { panels: 2000, ..Default::default() };
     assert!(off(params.target_length(&court), (sampled / 2000.0).sqrt()) < 1e-5);
 }

@@ -30,11 +30,11 @@ fn random_string(initial: &InitialMesh, index: u32) -> Tokens {
 /// All numbers of a developed design, or why it has none, to the last bit.
 fn fingerprint(court: &Study, mesh: &CanonicalMesh) -> String {
     let Study { domain, surface, .. } = court;
-    if let Some(rejection) = topological_rejection(mesh, domain, Pinched::Allow) {
+    if let Some(rejection) = topological_rejection(mesh, domain, Pinched::Allow, None) {
         return rejection.to_string();
     }
     match shape(mesh, domain, surface.as_ref(), &params()) {
-        Ok(pattern) => format!("{:?} {:?}", metrics::measure(&pattern, mesh), pattern.positions),
+        Ok(pattern) => format!("{:?} {:?}", metrics::measure(&pattern, mesh, domain), pattern.positions),
         Err(rejection) => rejection.to_string(),
     }
 }

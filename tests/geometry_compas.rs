@@ -63,6 +63,7 @@ fn curvature_skewness_and_edges_agree_with_compas() {
         positions,
         panels,
         loops: Vec::new(),
+        along: Vec::new(),
         corners: Vec::new(),
         loop_corners: Vec::new(),
         coarse: Vec::new(),
@@ -91,7 +92,8 @@ fn curvature_skewness_and_edges_agree_with_compas() {
     });
     let planarity = planarity.sum::<f64>() / flatness.len() as f64;
 
-    let found = metrics::measure(&pattern, &canonical_mesh(&great_court().initial.mesh));
+    let found =
+        metrics::measure(&pattern, &canonical_mesh(&great_court().initial.mesh), &great_court().domain);
     for (name, value) in [
         ("mean_curvature", found.curvature),
         ("mean_skewness", found.skewness),

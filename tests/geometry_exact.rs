@@ -69,7 +69,7 @@ fn a_flat_square_grid_is_perfect() {
                 assert!((x - (10.0 * x).round() / 10.0).abs() < 1e-12, "{kind:?}: {p:?}");
             }
         }
-        let found = metrics::measure(&pattern, &mesh);
+        let found = metrics::measure(&pattern, &mesh, &domain);
         for value in [found.curvature, found.skewness, found.edge_spread, found.planarity] {
             assert!(value < 1e-12, "{kind:?}: {found:?}");
         }
@@ -83,7 +83,7 @@ fn one_panel_of_two_by_one() {
     let mut params = params(1, RelaxKind::Area, 100);
     params.max_faces = 1;
     let pattern = develop(&mesh, &domain, surface.as_ref(), &params).expect("a pattern");
-    let found = metrics::measure(&pattern, &mesh);
+    let found = metrics::measure(&pattern, &mesh, &domain);
     assert_eq!((found.panels, found.nodes, found.members), (1, 4, 4));
     assert!(found.skewness.abs() < 1e-15 && (found.edge_spread - 0.5).abs() < 1e-15, "{found:?}");
     assert!((found.panel_area_mean - 2.0).abs() < 1e-15 && (found.aspect_mean - 2.0).abs() < 1e-15);

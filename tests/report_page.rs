@@ -103,13 +103,19 @@ fn pages_for_the_browser() {
     std::fs::create_dir_all(&folder).unwrap();
     let mut empty = small();
     (empty.front, empty.generations, empty.baseline) = (Vec::new(), Vec::new(), None);
+    empty.obstacles.clear();
     let mut bare = small();
     bare.objectives.truncate(1);
     for design in bare.front.iter_mut().chain(&mut bare.baseline) {
         design.mesh = None;
     }
-    let pages =
-        [("large", report_synthetic::run(200, 2_000)), ("small", small()), ("bare", bare), ("empty", empty)];
+    let pages = [
+        ("large", report_synthetic::run(200, 2_000)),
+        ("small", small()),
+        ("bare", bare),
+        ("empty", empty),
+        ("missed", report_synthetic::without_front(6, 500)),
+    ];
     for (name, data) in pages {
         std::fs::write(folder.join(format!("{name}.html")), render(&data).unwrap()).unwrap();
     }

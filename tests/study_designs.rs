@@ -231,7 +231,7 @@ fixed = ["ux", "uy", "uz"]
 /// Linear solves alone crowd panels against the holes: angles of 2° and edges of 2 % of the target length.
 #[test]
 fn between_several_holes_panels_are_not_crowded() {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/fold_study/three_holes.toml");
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/pattern_study/three_holes.toml");
     let config = config::load(&file, &[]).unwrap();
     let study = Study::new(&config, config::folder_of(&file)).unwrap();
     let design = study.develop(study.topology(&"".parse().unwrap()), Effort::Pattern).unwrap();

@@ -3,7 +3,7 @@
 function writeHead() {
   const { run } = facts;
   byId("lede").innerHTML = `Topologies for a structured surface structure, found by evolving strings of a quad-mesh grammar. ${frontDesigns.length ? `This page shows the ${plural(frontDesigns.length, "design")} that no other design beats in every objective, against the initial mesh.`
-      : "The search found no feasible design: no front to show."} Lengths in metres, masses in kilograms; numbers without a unit are ratios. Pictures are rounded to ${roundingText()}; exact geometry is in <code>designs/</code>, exact numbers in <code>pareto.csv</code>.`;
+      : `The search found no feasible design, so there is no front. Below: what stood in the way${facts.misses.length ? ", and the designs that came nearest" : ""}.`} Lengths in metres, masses in kilograms; numbers without a unit are ratios. Pictures are rounded to ${roundingText()}; exact geometry is in <code>designs/</code>, exact numbers in <code>pareto.csv</code>.`;
   const share = run.evaluations ? ` (${d3.format(".2~r")((100 * run.feasible) / run.evaluations)} %)` : "";
   const counts = [["designs on the front", whole(frontDesigns.length)], ["evaluated", whole(run.evaluations)], ["feasible", whole(run.feasible) + share],
     ["duplicates refused", whole(run.duplicates_refused)], ["generations", whole(d3.max(facts.generations, (g) => g.generation) ?? 0)], ["seed", run.seed.length > 9 ? `${run.seed.slice(0, 4)}…${run.seed.slice(-3)}` : run.seed]];
@@ -112,8 +112,12 @@ function startAddress() {
 
 // What is seen first is made first; the rest follows piece by piece, so that the page answers at once.
 writeHead();
-const later = [startShortlist, startTable, startFamilies, startConvergence, startSpread, startMetrics];
-if (designs.length) {
+const later = [startShortlist, startTable, startFamilies, startConvergence, startSpread, startObstacles, startMetrics];
+const hide = (...ids) => { for (const id of ids) byId(id).hidden = true; };
+const without = (...starts) => { for (const start of starts) later.splice(later.indexOf(start), 1); };
+if (!facts.obstacles.length) { hide("obstacles-section"); without(startObstacles); }
+if (frontDesigns.length) {
+  hide("misses-section");
   startAddress();
   startToolbar();
   startFields();
@@ -123,8 +127,23 @@ if (designs.length) {
   startLimits();
   later.unshift(startMatrix, startGallery);
 } else {
-  for (const id of ["viewer", "front", "gallery-section", "shortlist-section", "table-section", "families-section"]) byId(id).hidden = true;
-  later.splice(0, 3);
+  // Nothing feasible: no front to choose from, but something to look at.
+  hide("front", "gallery-section", "shortlist-section", "table-section", "families-section", "spread-part", "pin");
+  without(startShortlist, startTable, startFamilies, startSpread);
+  // What stood in the way comes first.
+  byId("misses-section").before(byId("obstacles-section"));
+  document.querySelector(".skip").href = "#obstacles-section";
+  if (designs.length) {
+    startAddress();
+    byId("previous").addEventListener("click", () => step(-1));
+    byId("next").addEventListener("click", () => step(1));
+    startFields();
+    startPicked();
+    startViewer();
+    later.unshift(startMisses);
+  } else {
+    hide("viewer", "misses-section");
+  }
 }
 function startNext() {
   later.shift()?.();

@@ -6,12 +6,12 @@ const byId = (id) => document.getElementById(id);
 /** Objectives, in the order of the config: {index, label, unit, column, meaning}. */
 const objectives = facts.objectives.map((index) => ({ index, ...facts.metrics[index] }));
 
-/** All designs, the baseline first. The baseline may be on the front itself. */
+/** All designs, the baseline first. The baseline may be on the front itself. Without a front the nearest misses follow. */
 const designs = (() => {
-  const front = facts.front.map((d) => ({ ...d, onFront: true, baseline: false }));
+  const front = [...facts.front.map((d) => ({ ...d, onFront: true, baseline: false })), ...facts.misses.map((d) => ({ ...d, onFront: false, baseline: false }))];
   if (!facts.baseline) return front;
   const same = front.findIndex((d) => d.id === facts.baseline.id);
-  const baseline = { ...facts.baseline, onFront: same >= 0, baseline: true };
+  const baseline = { ...facts.baseline, onFront: same >= 0 && front[same].onFront, baseline: true };
   if (same >= 0) front.splice(same, 1);
   return [baseline, ...front];
 })();
@@ -45,7 +45,7 @@ function mostBalanced(candidates) {
   const gap = (d) => d3.sum(objectives, (o) => { const r = relative(d, o); return r === null ? 4 : r * r; });
   return d3.least(candidates, (a, b) => gap(a) - gap(b) || d3.ascending(a.id, b.id));
 }
-const balanced = mostBalanced(frontDesigns.filter((d) => !d.baseline)) ?? designs[0];
+const balanced = mostBalanced(frontDesigns.filter((d) => !d.baseline)) ?? designs.find((d) => !d.baseline) ?? designs[0];
 
 // Families: the same singularities, but for convex corners, which come with the domain.
 const byValence = (counts, least = 0) => Object.entries(counts).map(([valence, n]) => [Number(valence), n]).filter(([valence]) => valence >= least)

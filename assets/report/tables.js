@@ -108,12 +108,12 @@ function startPicked() {
       const r = relative(d, o), rank = place(d, o);
       const bar = r === null ? "" : `<span class="bar" style="--at:${(100 * r).toFixed(1)}%"></span>`;
       return `<tr><th scope="row" title="${escapeHtml(o.meaning)}">${escapeHtml(o.label)}</th><td class="num">${escapeHtml(withUnit(value(d, o), o))}</td><td class="bar-cell">${bar}</td>
-        <td class="rank">${rank === null ? "" : d.onFront ? `${whole(rank)}. of ${whole(frontDesigns.length)}` : `${whole(rank - 1)} better`}</td></tr>`;
+        <td class="rank">${rank === null ? "" : d.onFront ? `${whole(rank)}. of ${whole(frontDesigns.length)}` : frontDesigns.length ? `${whole(rank - 1)} better` : ""}</td></tr>`;
     });
     const others = facts.metrics.map((m, i) => [m, d.values[i]]).filter(([, v], i) => known(v) && !facts.objectives.includes(i))
       .map(([m, v]) => `<tr><th scope="row" title="${escapeHtml(m.meaning)}">${escapeHtml(m.label)}</th><td class="num">${escapeHtml(withUnit(v, m))}</td></tr>`);
-    const files = d.onFront ? facts.design_files.map((ending) => `<a href="designs/${encodeURIComponent(d.id)}${escapeHtml(ending)}">${escapeHtml(ending.replace(/^[._]/, ""))}</a>`).join(" ") : "";
-    const standing = d.baseline ? (d.onFront ? "On the front itself." : d.feasible ? "Feasible, but dominated." : `Not feasible${d.reason ? `: ${escapeHtml(d.reason)}` : ""}.`) : d === balanced ? "Nearest to the best of all objectives at once." : "";
+    const files = d.onFront || facts.misses.some((m) => m.id === d.id) ? facts.design_files.map((ending) => `<a href="designs/${encodeURIComponent(d.id)}${escapeHtml(ending)}">${escapeHtml(ending.replace(/^[._]/, ""))}</a>`).join(" ") : "";
+    const standing = d.baseline || !d.onFront ? (d.onFront ? "On the front itself." : d.feasible ? "Feasible, but dominated." : `Not feasible${d.reason ? `: ${escapeHtml(d.reason)}` : ""}.`) : d === balanced ? "Nearest to the best of all objectives at once." : "";
     box.innerHTML = `<p class="standing">Family ${d.family.letter}: ${escapeHtml(d.family.text)} · generation ${d.generation}. ${standing}</p>
       <table class="values"><tbody>${rows.join("")}</tbody></table>
       <p class="strings"><span>String</span> ${stringOf(d.string)}${d.expressed !== d.string ? `<br><span>of it expressed</span> ${stringOf(d.expressed)}` : ""}</p>

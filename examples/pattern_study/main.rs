@@ -11,6 +11,7 @@
 #![allow(clippy::print_stdout, reason = "a program")]
 
 use quadrille::config;
+use quadrille::domain::Domain;
 use quadrille::geometry::metrics::{Fabrication, measure};
 use quadrille::geometry::params::Pinched;
 use quadrille::geometry::{Pattern, check, develop, limits, shape, topological_rejection};
@@ -77,7 +78,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let start = Instant::now();
         let pattern = develop(&mesh, &study.domain, study.surface.as_ref(), &config.pattern);
         let seconds = start.elapsed().as_secs_f64();
-        rows.push(judge(tokens, &mesh, pattern, &limits, seconds));
+        rows.push(judge(&study.domain, tokens, &mesh, pattern, &limits, seconds));
     }
     report(&file.file_stem().unwrap_or_default().to_string_lossy(), &refused, &rows, limits.target_length);
     if let Some(folder) = folder {
@@ -118,11 +119,8 @@ fn read_strings(file: &Path) -> Result<Vec<Tokens>, Box<dyn Error>> {
 
 /// Strings with distinct codes, none of them flat or pinched.
 fn random_strings(study: &Study, kind: &str, wanted: usize, seed: u64) -> Vec<Tokens> {
-    let growth = Growth {
-        initial: &study.initial,
-        rules: study.rules,
-        bounds: TokenBounds { min: 10, max: 40 },
-    };
+    let growth =
+        Growth { initial: &study.initial, rules: study.rules, bounds: TokenBounds { min: 10, max: 40 } };
     let initialiser = if kind == "aware" { Initialiser::Aware } else { Initialiser::Structured };
     let mut codes = BTreeSet::new();
     let mut strings = Vec::new();
@@ -141,6 +139,7 @@ fn random_strings(study: &Study, kind: &str, wanted: usize, seed: u64) -> Vec<To
 }
 
 fn judge(
+    domain: &Domain,
     tokens: &Tokens,
     mesh: &CanonicalMesh,
     pattern: Result<Pattern, quadrille::geometry::Rejection>,
@@ -150,13 +149,14 @@ fn judge(
     let tokens = tokens.clone();
     match pattern {
         Ok(pattern) => {
-            let broken: Vec<_> =
-                limits::excesses(&pattern, limits).into_iter().filter(|row| row.excess > 0.0).collect();
+            let figures = measure(&pattern, mesh, domain);
+            let rows = limits::excesses(&(&figures).into(), limits);
+            let broken: Vec<_> = rows.into_iter().filter(|row| row.excess > 0.0).collect();
             Row {
                 tokens,
                 excess: broken.iter().map(|row| row.excess).sum(),
                 broken: broken.iter().map(|row| row.name).collect::<Vec<_>>().join(" "),
-                figures: Some(measure(&pattern, mesh)),
+                figures: Some(figures),
                 seconds,
             }
         }
@@ -200,7 +200,10 @@ fn report(name: &str, refused: &BTreeMap<String, usize>, rows: &[Row], t: f64) {
     println!("  curvature   {}", quantiles(&figure(|f| f.curvature)));
     println!("  panels      {}", quantiles(&figure(|f| f.panels as f64)));
     println!("  milliseconds {}", quantiles(&|row| 1e3 * row.seconds));
-    println!("  mean {:.1} ms", 1e3 * rows.iter().map(|row| row.seconds).sum::<f64>() / rows.len().max(1) as f64);
+    println!(
+        "  mean {:.1} ms",
+        1e3 * rows.iter().map(|row| row.seconds).sum::<f64>() / rows.len().max(1) as f64
+    );
 }
 
 fn table(rows: &[Row]) -> String {
@@ -210,7 +213,8 @@ fn table(rows: &[Row]) -> String {
             (f.curvature, f.skewness, f.edge_spread, f.panels)
         });
         let milliseconds = 1e3 * row.seconds;
-        let _ = writeln!(text, "{},{},{},{c},{s},{l},{n},{milliseconds:.1}", row.tokens, row.excess, row.broken);
+        let _ =
+            writeln!(text, "{},{},{},{c},{s},{l},{n},{milliseconds:.1}", row.tokens, row.excess, row.broken);
     }
     text
 }

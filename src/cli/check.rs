@@ -1,15 +1,17 @@
 //! `quadrille check`: is a config right, and what does it mean?
 
 use super::config_args::ConfigArgs;
+use super::outlook::outlook;
 use super::{CliError, Console};
 use quadrille::config;
 use std::process::ExitCode;
 
-/// Validate a config and print what it means, with defaults filled in; run nothing.
+/// Validate a config and print what it means, with defaults filled in; search nothing.
 ///
 /// Prints what the config means, as comments, and then the config with every default written out: the whole is a
 /// config again. Warnings go to stderr. A wrong config ends with exit code 2 and a line for each problem: file, line,
-/// key, what was found, what is allowed. Domain, surface and initial mesh are made, so that they are known to be right.
+/// key, what was found, what is allowed. Domain, surface and initial mesh are made, so that they are known to be right, and told
+/// in figures: extents, areas, target length, corners, and which limits the pattern of the initial mesh keeps.
 #[derive(clap::Args)]
 pub struct Args {
     #[command(flatten)]
@@ -25,6 +27,9 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     }
     outln!("# {}: what this config means", args.config.config.display());
     for line in config::describe(&config) {
+        outln!("# * {line}");
+    }
+    for line in outlook(&study, &config) {
         outln!("# * {line}");
     }
     let unused = study.unused_symmetries(&config);

@@ -1,14 +1,19 @@
 //! Designs side by side: all metrics, absolute and normalised by the largest, non-dominated ones marked.
 
+use super::CliError;
 use quadrille::evolve::{Domination, compare_objectives};
+use quadrille::geometry::Pattern;
 use quadrille::grammar::Tokens;
-use quadrille::mesh::Code;
+use quadrille::mesh::{CanonicalMesh, Code};
 use quadrille::objectives::METRICS;
 use quadrille::output::designs::id;
 use quadrille::output::number::significant;
+use quadrille::output::results::{DesignFiles, Developed};
 use quadrille::output::table::{Cell, Table};
 use quadrille::search::Evaluation;
-use quadrille::study::{Effort, Study};
+use quadrille::structure::gridshell::Proof;
+use quadrille::study::{Effort, Reached, Study};
+use quadrille::surface::SurfaceKind;
 use rayon::prelude::*;
 use std::fmt::Write;
 
@@ -22,7 +27,14 @@ pub struct Entry {
     pub code: Code,
     /// Its numbers, or why it has none.
     pub evaluation: Evaluation,
+    /// Whether it has a pattern, sound or folded.
+    pub has_pattern: bool,
+    /// Its sound pattern, where there is no surface and so the forms of designs differ.
+    pub form: Option<Pattern>,
 }
+
+/// Takes the files of a design as soon as it is developed: no need to develop it twice, nor to hold all of them.
+pub type Save<'a> = dyn Fn(DesignFiles) -> Result<(), CliError> + Sync + 'a;
 
 impl Entry {
     /// First 12 digits of its code.
@@ -39,17 +51,40 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Evaluates all strings with every number that can be had.
-    pub fn of(study: &Study, named: Vec<(String, Tokens)>) -> Self {
+    /// Evaluates all strings with every number that can be had; `save` gets the files of all that have a pattern.
+    ///
+    /// # Errors
+    /// The first of `save`, in the order of the strings.
+    pub fn of(
+        study: &Study,
+        named: Vec<(String, Tokens)>,
+        save: Option<&Save<'_>>,
+    ) -> Result<Self, CliError> {
         let evaluate = |(name, tokens): (String, Tokens)| {
             let topology = study.topology(&tokens);
             let code = topology.code;
-            Entry { name, tokens, code, evaluation: study.evaluate_topology(topology, Effort::Everything) }
+            let (evaluation, reached) = match save {
+                None => examine(study, topology),
+                Some(save) => match Developed::of(study, topology, Proof::None) {
+                    Err(failure) => (Evaluation::from(&failure), Reached::Nothing),
+                    Ok(developed) => {
+                        save(developed.files(&id(code)))?;
+                        (developed.evaluation(study), developed.reached())
+                    }
+                },
+            };
+            let has_pattern = !matches!(reached, Reached::Nothing);
+            let form = match reached {
+                Reached::Pattern(design) if study.surface.kind() == SurfaceKind::Free => Some(design.pattern),
+                _ => None,
+            };
+            Ok(Entry { name, tokens, code, evaluation, has_pattern, form })
         };
-        Self {
-            entries: named.into_par_iter().map(evaluate).collect(),
+        let entries: Vec<Result<Entry, CliError>> = named.into_par_iter().map(evaluate).collect();
+        Ok(Self {
+            entries: entries.into_iter().collect::<Result<_, _>>()?,
             objectives: study.objectives.iter().map(|objective| objective.name).collect(),
-        }
+        })
     }
 
     /// Whether no other feasible design is at least as good in all objectives and better in one.
@@ -144,6 +179,14 @@ impl Comparison {
             let _ = write!(text, "{cell:>20}");
         }
         text.push('\n');
+    }
+}
+
+/// The numbers of a topology, and what there is of it.
+fn examine(study: &Study, topology: CanonicalMesh) -> (Evaluation, Reached) {
+    match study.develop(topology, Effort::Everything) {
+        Ok(design) => (study.evaluation(&design), Reached::Pattern(Box::new(design))),
+        Err(failure) => (Evaluation::from(&failure), failure.reached),
     }
 }
 

@@ -3,12 +3,8 @@
 use super::compare::Comparison;
 use quadrille::geometry::Pattern;
 use quadrille::geometry::deviation::{self, Deviation};
-use quadrille::grammar::Tokens;
 use quadrille::output::number::significant;
 use quadrille::output::table::Table;
-use quadrille::study::{Effort, Study};
-use quadrille::surface::SurfaceKind;
-use rayon::prelude::*;
 use std::fmt::Write;
 
 /// Deviations of all pairs of designs that have a form.
@@ -22,15 +18,10 @@ pub struct Deviations {
 
 impl Deviations {
     /// Of all designs of a comparison; `None` on a surface, where all forms are the same, and for fewer than two designs.
-    pub fn of(study: &Study, comparison: &Comparison) -> Option<Self> {
-        if study.surface.kind() != SurfaceKind::Free {
-            return None;
-        }
-        let form = |tokens: &Tokens| study.develop(study.topology(tokens), Effort::Pattern).ok();
-        let forms: Vec<Option<Pattern>> =
-            comparison.entries.par_iter().map(|entry| Some(form(&entry.tokens)?.pattern)).collect();
+    pub fn of(comparison: &Comparison) -> Option<Self> {
+        let forms = comparison.entries.iter().enumerate();
         let (designs, patterns): (Vec<usize>, Vec<&Pattern>) =
-            forms.iter().enumerate().filter_map(|(k, form)| Some((k, form.as_ref()?))).unzip();
+            forms.filter_map(|(k, entry)| Some((k, entry.form.as_ref()?))).unzip();
         let pairs = deviation::of_pairs(&patterns);
         let unit = deviation::mean_edge(&patterns)?;
         (!pairs.is_empty()).then_some(Self { designs, pairs, unit })

@@ -1,6 +1,6 @@
 //! `quadrille evaluate`: the designer's mode (paper, Figure 24).
 
-use super::compare::Comparison;
+use super::compare::{Comparison, Save};
 use super::config_args::ConfigArgs;
 use super::deviations::Deviations;
 use super::folder_args::refuse_file;
@@ -8,9 +8,8 @@ use super::topology::parse_string;
 use super::{CliError, Console};
 use quadrille::grammar::Tokens;
 use quadrille::output::atomic;
-use quadrille::output::folder::{CHECKPOINT, EVALUATION, JOURNAL, MANIFEST};
-use quadrille::output::results::Developed;
-use quadrille::study::Study;
+use quadrille::output::folder::{CHECKPOINT, DESIGNS, EVALUATION, JOURNAL, MANIFEST};
+use quadrille::output::results::DesignFiles;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -18,7 +17,8 @@ use std::process::ExitCode;
 ///
 /// Every number is computed even where a limit is exceeded. Designs that no other of these dominates are marked with
 /// `*`. Where there is no surface, the distances between the forms follow. With --out, tables (evaluation.csv,
-/// normalised.csv, deviations.csv) and the files of every design are written too.
+/// normalised.csv, deviations.csv) and the files of every design that has a pattern are written too, mesh and picture
+/// also where the structure gives no answer or the pattern is folded: the table says in words what is wrong with it.
 #[derive(clap::Args)]
 pub struct Args {
     #[command(flatten)]
@@ -51,18 +51,18 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
         refuse_results(folder)?;
     }
     let study = args.config.study(&config)?;
-    let comparison = Comparison::of(&study, named);
+    let save = args.out.as_deref().map(|folder| Designs::below(folder)).transpose()?;
+    let save = save.as_ref().map(|designs| |files: DesignFiles| designs.save(&files));
+    let comparison = Comparison::of(&study, named, save.as_ref().map(|save| save as &Save<'_>))?;
     out!("{}", comparison.to_text());
-    let deviations = Deviations::of(&study, &comparison);
+    let deviations = Deviations::of(&comparison);
     if let Some(deviations) = &deviations {
         out!("{}", deviations.to_text());
     }
     if let Some(folder) = &args.out {
-        write(folder, &study, &config, &comparison, console)?;
-        if let Some(deviations) = &deviations {
-            let path = folder.join("deviations.csv");
-            let table = deviations.table(&comparison);
-            atomic::write(&path, &table.to_csv()).map_err(CliError::write(&path))?;
+        write(folder, &comparison, deviations.as_ref())?;
+        for entry in comparison.entries.iter().filter(|entry| !entry.has_pattern) {
+            console.warn(&format!("no files for {}: {}", entry.name, entry.evaluation.reason));
         }
     }
     Ok(ExitCode::SUCCESS)
@@ -114,27 +114,32 @@ fn refuse_results(folder: &Path) -> Result<(), CliError> {
     }
 }
 
-fn write(
-    folder: &Path,
-    study: &Study,
-    config: &quadrille::config::Config,
-    comparison: &Comparison,
-    console: &Console,
-) -> Result<(), CliError> {
-    let designs = folder.join("designs");
-    std::fs::create_dir_all(&designs).map_err(CliError::write(&designs))?;
-    let save = |path: PathBuf, bytes: &[u8]| atomic::write(&path, bytes).map_err(CliError::write(&path));
+/// The folder that the files of designs go to.
+struct Designs(PathBuf);
+
+impl Designs {
+    /// Makes it, before anything is evaluated for it.
+    fn below(folder: &Path) -> Result<Self, CliError> {
+        let designs = folder.join(DESIGNS);
+        std::fs::create_dir_all(&designs).map_err(CliError::write(&designs))?;
+        Ok(Self(designs))
+    }
+
+    fn save(&self, files: &DesignFiles) -> Result<(), CliError> {
+        files.iter().try_for_each(|(name, bytes)| save(self.0.join(name), bytes))
+    }
+}
+
+fn save(path: PathBuf, bytes: &[u8]) -> Result<(), CliError> {
+    atomic::write(&path, bytes).map_err(CliError::write(&path))
+}
+
+/// Writes the tables.
+fn write(folder: &Path, comparison: &Comparison, deviations: Option<&Deviations>) -> Result<(), CliError> {
     save(folder.join(EVALUATION), &comparison.table().to_csv())?;
     save(folder.join("normalised.csv"), &comparison.normalised().to_csv())?;
-    for entry in &comparison.entries {
-        match Developed::of(study, config, &entry.tokens) {
-            Ok(developed) => {
-                for (name, bytes) in developed.files(&entry.id()) {
-                    save(designs.join(name), &bytes)?;
-                }
-            }
-            Err(reason) => console.warn(&format!("no files for {}: {reason}", entry.name)),
-        }
+    match deviations {
+        Some(deviations) => save(folder.join("deviations.csv"), &deviations.table(comparison).to_csv()),
+        None => Ok(()),
     }
-    Ok(())
 }

@@ -11,7 +11,7 @@ use quadrille::output::load::Loaded;
 use quadrille::output::number::significant;
 use quadrille::output::results::Developed;
 use quadrille::search::EvaluatedRow;
-use quadrille::structure::gridshell::{Detailed, Place};
+use quadrille::structure::gridshell::{Detailed, Place, Proof};
 use std::fs;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -46,10 +46,10 @@ pub fn run(args: Args, _console: &Console) -> Result<ExitCode, CliError> {
         false => outln!("not feasible (stage {}): {}", row.violation.stage, row.reason),
     }
     standing(&loaded, row);
-    let developed = match Developed::of(&study, &loaded.config, &row.tokens) {
+    let developed = match Developed::of(&study, study.topology(&row.tokens), Proof::None) {
         Ok(developed) => developed,
-        Err(reason) => {
-            outln!("\nno pattern: {reason}");
+        Err(failure) => {
+            outln!("\nno pattern: {}", failure.reason);
             return Ok(ExitCode::SUCCESS);
         }
     };

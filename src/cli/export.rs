@@ -13,6 +13,7 @@ use quadrille::output::polygons::Polygons;
 use quadrille::output::results::{DesignFiles, Developed};
 use quadrille::output::vtu::{Grid, vtu};
 use quadrille::output::{atomic, svg};
+use quadrille::structure::gridshell::Proof;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -64,13 +65,16 @@ enum Operator {
 }
 
 /// Makes the design and writes it.
-pub fn run(args: Args, _console: &Console) -> Result<ExitCode, CliError> {
+pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     args.out.as_deref().map_or(Ok(()), refuse_file)?;
     let (loaded, study) = open(&args.folder)?;
     let row = find(&loaded, &args.design)?;
     let id = id(row.code);
-    let developed = Developed::of(&study, &loaded.config, &row.tokens)
-        .map_err(|reason| CliError::Failed(format!("design {id}: {reason}")))?;
+    let developed = Developed::of(&study, study.topology(&row.tokens), Proof::None)
+        .map_err(|failure| CliError::Failed(format!("design {id}: {}", failure.reason)))?;
+    if let Some(failure) = &developed.failure {
+        console.warn(&format!("design {id} has a pattern, but no structural results: {}", failure.reason));
+    }
     let files = match args.pattern {
         Some(operator) => transformed(operator.apply(&developed.design.pattern), &id, operator, args.format)?,
         None => plain(&developed, &id, args.format),

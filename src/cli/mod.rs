@@ -26,7 +26,7 @@ mod help;
 mod init;
 mod man;
 mod neighbours;
-mod obstacles;
+mod outlook;
 mod progress;
 mod quote;
 mod report;

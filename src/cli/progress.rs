@@ -5,6 +5,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use quadrille::config::Config;
 use quadrille::mesh::Code;
 use quadrille::output::designs::id;
+use quadrille::output::obstacles::{Obstacles, initial_mesh};
 use quadrille::search::{Evaluation, GenerationRow, Observer, Progress};
 use std::time::{Duration, Instant};
 
@@ -18,11 +19,16 @@ pub struct Display {
     now: Option<Progress>,
     front: u64,
     hypervolume: Option<f64>,
+    /// What came of the designs before the end of the first generation.
+    first: Obstacles,
+    /// Code of the initial mesh, and how it stands once that is known.
+    baseline: Code,
+    initial: Option<String>,
 }
 
 impl Display {
-    /// A display for a run of a config.
-    pub fn new(config: &Config, console: Console) -> Self {
+    /// A display for a run of a config whose initial mesh has the given code.
+    pub fn new(config: &Config, baseline: Code, console: Console) -> Self {
         let generations = config.search.generations;
         let limits = Limits::of(config);
         let bar = (console.progress() == How::Bar).then(|| {
@@ -41,6 +47,9 @@ impl Display {
             now: None,
             front: 0,
             hypervolume: None,
+            first: Obstacles::default(),
+            baseline,
+            initial: None,
         }
     }
 
@@ -60,6 +69,16 @@ impl Display {
         match &self.bar {
             Some(bar) => bar.suspend(print),
             None => print(),
+        }
+    }
+
+    /// What blocks designs, and how the initial mesh stands: early enough to change the config.
+    fn tell_first_generation(&self) {
+        if self.console.progress() != How::None {
+            self.say(&self.first.first_generation());
+            if let Some(initial) = &self.initial {
+                self.say(initial);
+            }
         }
     }
 
@@ -85,6 +104,10 @@ impl Display {
 
 impl Observer for Display {
     fn design(&mut self, code: Code, evaluation: &Evaluation) {
+        self.first.add(evaluation.violation, &evaluation.reason);
+        if code == self.baseline {
+            self.initial = Some(initial_mesh(evaluation.violation, &evaluation.reason));
+        }
         if self.console.tells_designs() {
             let told = match evaluation.violation.stage {
                 0 => "feasible".to_owned(),
@@ -120,6 +143,9 @@ impl Observer for Display {
             (Some(bar), _) => bar.set_message(self.summary(&progress)),
             (None, How::Plain) => self.say(&self.summary(&progress)),
             _ => {}
+        }
+        if row.generation == 0 {
+            self.tell_first_generation();
         }
         let breeding = &row.breeding;
         let told = format!(

@@ -4,9 +4,10 @@ use super::config_args::ConfigArgs;
 use super::folder_args::refuse_file;
 use super::progress::{Display, duration};
 use super::quote::quote;
-use super::{CliError, Console, exit, obstacles};
+use super::{CliError, Console, exit};
 use quadrille::config::{Config, to_toml};
 use quadrille::output::folder::{Folder, FolderError, Opening, REPORT};
+use quadrille::output::obstacles::Obstacles;
 use quadrille::output::report;
 use quadrille::output::results::{self, Run, Sitting};
 use quadrille::output::table::Dialect;
@@ -85,7 +86,10 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
         return Ok(ExitCode::from(exit::interrupted(signal)));
     }
     let dialect = args.csv_dialect.map_or(Dialect::Canonical, |CsvDialect::ExcelEu| Dialect::ExcelEu);
-    console.note(&format!("writing {} designs of the front", outcome.front.len()));
+    console.note(&match outcome.front.len() {
+        0 => "writing the designs that came nearest".to_owned(),
+        count => format!("writing {count} designs of the front"),
+    });
     run.write(&folder, &sitting, dialect).map_err(failed)?;
     drop(store);
     summarise(&study, &outcome, &folder, clock, console);
@@ -196,7 +200,7 @@ fn evolve(
         config.objectives.minimise.join(", ")
     ));
     console.detail(&to_toml(config));
-    let mut display = Display::new(config, *console);
+    let mut display = Display::new(config, study.baseline(), *console);
     let outcome = search::run(study, &server, &settings, &stop, Some(store), &mut display);
     display.finish();
     Ok((outcome.map_err(|error| failed(&error))?, threads))
@@ -226,7 +230,7 @@ fn summarise(study: &Study, outcome: &Outcome, folder: &Folder, clock: Instant, 
         }
     }
     if outcome.front.is_empty() {
-        console.always(&obstacles::sentence(&outcome.evaluated));
+        console.always(&Obstacles::of(&outcome.evaluated).none_feasible());
     }
     let page = quote(&folder.join(REPORT).to_string_lossy());
     let folder = quote(&folder.path().to_string_lossy());

@@ -53,10 +53,10 @@ pub fn run(args: Args, _console: &Console) -> Result<ExitCode, CliError> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The domain and its mesh, which need nothing else of the config.
+/// The domain and its mesh, which need nothing of the structure and the search.
 fn initial_mesh(config: &Config, folder: &Path) -> Result<(Domain, BaseMesh), StudyError> {
     let surface = surface::build(&config.surface, folder)?;
-    let domain = Domain::resolve(&config.domain, &surface, folder)?;
+    let domain = Domain::resolve_for(&config.domain, &surface, folder, config.pattern.grain())?;
     let base = skeleton::initial(&config.topology, &domain, folder)?;
     Ok((domain, base))
 }

@@ -1,7 +1,7 @@
 //! What a config means, in words, and what its author may not have thought of.
 
 use super::Config;
-use crate::domain::params::{CornerRule, Corners, LoopParams};
+use crate::domain::params::{CornerRule, Corners, LengthUnit, LoopParams};
 use crate::geometry::params::{Density, InitialMesh, PatternParams};
 use crate::structure::params::{
     Direction, HeightParams, LoadParams, Quantity, RequirementParams, SectionParams, StructureParams,
@@ -93,17 +93,30 @@ fn describe_loop(boundary_loop: &LoopParams) -> String {
         LoopParams::Ellipse { center_m, semi_axes_m: [a, b], .. } => {
             format!("ellipse with semi-axes {a} m and {b} m about {center_m:?}")
         }
-        LoopParams::Obj { file, polyline, corners, corner_angle_deg } => {
+        LoopParams::Obj { file, unit, polyline, corners, corner_angle_deg } => {
             let corners = describe_corners(corners, *corner_angle_deg);
-            format!("polyline {polyline} of {}, {corners}", file.display())
+            format!("polyline {polyline} of {}{}, {corners}", file.display(), describe_unit(*unit))
         }
+    }
+}
+
+/// What is said of a file whose coordinates are not in metres.
+fn describe_unit(unit: LengthUnit) -> &'static str {
+    match unit {
+        LengthUnit::M => "",
+        LengthUnit::Cm => " (in centimetres)",
+        LengthUnit::Mm => " (in millimetres)",
+        LengthUnit::Ft => " (in feet)",
+        LengthUnit::In => " (in inches)",
     }
 }
 
 fn describe_corners(corners: &Corners, angle: f64) -> String {
     match corners {
         Corners::Rule(CornerRule::All) => "each a corner".into(),
-        Corners::Rule(CornerRule::Auto) => format!("corners where it turns by more than {angle}°"),
+        Corners::Rule(CornerRule::Auto) => {
+            format!("corners where it turns by more than {angle}° within a tenth of the target length")
+        }
         Corners::Indices(indices) => format!("corners at points {indices:?}"),
     }
 }
@@ -125,7 +138,7 @@ fn describe_surface(surface: &SurfaceParams) -> String {
         SurfaceParams::Cylinder { radius_m, .. } => {
             format!("the upper part of a cylinder of radius {radius_m} m")
         }
-        SurfaceParams::Mesh { file } => format!("the mesh {}", file.display()),
+        SurfaceParams::Mesh { file, unit } => format!("the mesh {}{}", file.display(), describe_unit(*unit)),
         SurfaceParams::Free {} => "none; the relaxation finds the form".into(),
     }
 }
@@ -133,7 +146,7 @@ fn describe_surface(surface: &SurfaceParams) -> String {
 fn describe_initial(initial: &InitialMesh) -> String {
     match initial {
         InitialMesh::Word(_) => "decomposition of the domain along its medial axis".into(),
-        InitialMesh::File { file } => format!("from {}", file.display()),
+        InitialMesh::File { file, unit } => format!("from {}{}", file.display(), describe_unit(*unit)),
         InitialMesh::Grid { grid: [m, n] } => format!("a grid of {m} × {n} faces"),
         InitialMesh::Inline { vertices, faces, .. } => {
             format!("{} vertices and {} faces written in the config", vertices.len(), faces.len())

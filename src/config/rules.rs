@@ -108,14 +108,14 @@ impl Rules<'_> {
     }
 
     fn surface(&mut self, surface: &SurfaceParams) {
-        if let SurfaceParams::Mesh { file } = surface {
+        if let SurfaceParams::Mesh { file, .. } = surface {
             self.file_exists("surface.file", file);
         }
     }
 
     fn topology(&mut self, initial: &InitialMesh) {
         match initial {
-            InitialMesh::File { file } => self.file_exists("topology.initial.file", file),
+            InitialMesh::File { file, .. } => self.file_exists("topology.initial.file", file),
             InitialMesh::Inline { vertices, faces, .. } => {
                 let key = KeyPath::of("topology.initial.faces");
                 for (f, face) in faces.iter().enumerate() {

@@ -3,9 +3,15 @@
 use super::curve::Curve;
 use crate::surface::{Surface, SurfaceKind};
 
-/// Four-point Gauss rules across the domain, and along each part of a scan line. Always as many, however long the part: so that
-/// a rounding error in a length cannot change the rule, and a turned or mirrored domain has the same points.
-const RULES: usize = 16;
+/// Four-point Gauss rules across all bands together, and along each part of a scan line. Always as many, however long the part: so
+/// that a rounding error in a length cannot change the rule, and a turned or mirrored domain has the same points.
+const RULES: [usize; 2] = [40, 12];
+
+/// The least across one band.
+const LEAST_RULES: usize = 3;
+
+/// Polylines with more points than this together do not part the domain into bands at each of them: they are drawn curves.
+const MOST_BANDS: usize = 24;
 
 /// Slopes count up to this: 1/|n_z| is without bound where the surface stands upright, as at the rim of a half sphere.
 const STEEPEST: f64 = 1000.0;
@@ -48,12 +54,13 @@ impl Mean {
 
 /// Adds 1/|n_z| on all scan lines along one axis (0: x, 1: y).
 fn scan(curves: &[Curve], surface: &dyn Surface, axis: usize, mean: &mut Mean) {
-    let [low, high] = curves[0].bounds();
-    for (level, breadth) in stations(low[1 - axis], high[1 - axis]) {
+    let bands = bands(curves, 1 - axis);
+    let rules = (RULES[0] / (bands.len() - 1).max(1)).max(LEAST_RULES);
+    for (level, breadth) in bands.windows(2).flat_map(|b| stations(b[0], b[1], rules)) {
         let mut crossings: Vec<f64> = curves.iter().flat_map(|c| c.crossings(axis, level)).collect();
         crossings.sort_by(f64::total_cmp);
         for part in crossings.chunks_exact(2) {
-            for (at, width) in stations(part[0], part[1]) {
+            for (at, width) in stations(part[0], part[1], RULES[1]) {
                 let (x, y) = if axis == 0 { (at, level) } else { (level, at) };
                 if let Some(slope) = slope(surface, x, y) {
                     mean.add(breadth * width * slope, breadth * width);
@@ -63,15 +70,28 @@ fn scan(curves: &[Curve], surface: &dyn Surface, axis: usize, mean: &mut Mean) {
     }
 }
 
+/// Where scan lines begin or cease to cross a curve, in the coordinate `axis`: between two of these the parts of a line vary
+/// smoothly from one line to the next.
+fn bands(curves: &[Curve], axis: usize) -> Vec<f64> {
+    let points = || curves.iter().flat_map(Curve::points);
+    let mut levels: Vec<f64> = curves.iter().flat_map(|c| c.bounds().map(|p| p[axis])).collect();
+    if points().count() <= MOST_BANDS {
+        levels.extend(points().map(|p| p[axis]));
+    }
+    levels.sort_by(f64::total_cmp);
+    levels.dedup();
+    levels
+}
+
 /// Positions and weights of an integral from `low` to `high`: Gauss rules in u, with the place 3u² − 2u³ of the way, so that a
 /// root at an end, such as that of an ellipse's chord or of a half sphere's slope, does no harm.
-fn stations(low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> {
+fn stations(low: f64, high: f64, rules: usize) -> impl Iterator<Item = (f64, f64)> {
     let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
-    (0..RULES).flat_map(move |k| {
+    (0..rules).flat_map(move |k| {
         GAUSS.into_iter().map(move |(node, weight)| {
             // From −1 to 1, so that both halves of a symmetric domain have the same points.
-            let v = (2.0 * k as f64 + 1.0 + node) / RULES as f64 - 1.0;
-            (middle + half * v * (1.5 - 0.5 * v * v), half * weight / RULES as f64 * 1.5 * (1.0 - v * v))
+            let v = (2.0 * k as f64 + 1.0 + node) / rules as f64 - 1.0;
+            (middle + half * v * (1.5 - 0.5 * v * v), half * weight / rules as f64 * 1.5 * (1.0 - v * v))
         })
     })
 }

@@ -1,6 +1,6 @@
 //! A boundary loop by arc length on the surface.
 
-use super::curve::Curve;
+use super::curve::{Curve, closest_on_segment};
 use crate::surface::{Surface, SurfaceKind};
 use std::sync::Arc;
 
@@ -16,6 +16,8 @@ pub struct BoundaryLoop {
     corners: Vec<f64>,
     cells: Vec<Cell>,
     length: f64,
+    /// What is a short way for the patterns here: within it the curve turns at a corner, m.
+    way: f64,
 }
 
 /// A stretch of the curve between two parameters, with the arc length there as a cubic in the parameter.
@@ -75,11 +77,23 @@ const NEAR: f64 = 1e-6;
 const CELLS: usize = 1024;
 
 impl BoundaryLoop {
-    pub(super) fn new(curve: Curve, surface: &Arc<dyn Surface>, mut corner_parameters: Vec<f64>) -> Self {
+    pub(super) fn new(
+        curve: Curve,
+        surface: &Arc<dyn Surface>,
+        mut corner_parameters: Vec<f64>,
+        way: f64,
+    ) -> Self {
         corner_parameters.sort_by(f64::total_cmp);
         let surface = (surface.kind() != SurfaceKind::Free).then(|| Arc::clone(surface));
-        let mut boundary =
-            Self { curve, surface, corner_parameters, corners: Vec::new(), cells: Vec::new(), length: 0.0 };
+        let mut boundary = Self {
+            curve,
+            surface,
+            corner_parameters,
+            corners: Vec::new(),
+            cells: Vec::new(),
+            length: 0.0,
+            way,
+        };
         boundary.measure();
         boundary.corners = boundary.corner_parameters.iter().map(|&t| boundary.arc_length(t)).collect();
         boundary
@@ -195,6 +209,7 @@ impl BoundaryLoop {
             corners: Vec::new(),
             cells: Vec::new(),
             length: 0.0,
+            way: self.way,
         };
         flat.measure();
         flat.corners = flat.corner_parameters.iter().map(|&t| flat.arc_length(t)).collect();
@@ -209,11 +224,18 @@ impl BoundaryLoop {
         (self.at(t), d.map(|v| v / length))
     }
 
-    /// Angle by which the curve turns at a corner at arc length `s`, along the surface, −π..π; positive to the left.
+    /// Angle by which the curve turns at a corner at arc length `s`, along the surface, −π..π; positive to the left. It is that
+    /// between the directions a short way before and after, so that a fillet turns as the corner it rounds; but no farther than
+    /// midway to another corner.
     pub(super) fn turning(&self, s: f64) -> f64 {
         let t = self.parameter(s);
-        let before = self.derivative((t - NEAR).rem_euclid(self.curve.period()));
-        let after = self.derivative(t);
+        let way = self.way.min(0.5 * self.room(s));
+        let [before, after] = if way > 0.0 {
+            [self.parameter(s - way), self.parameter(s + way)]
+        } else {
+            [(t - NEAR).rem_euclid(self.curve.period()), t]
+        };
+        let (before, after) = (self.derivative(before), self.derivative(after));
         let across: [f64; 3] = std::array::from_fn(|k| {
             let (i, j) = ((k + 1) % 3, (k + 2) % 3);
             before[i] * after[j] - before[j] * after[i]
@@ -221,6 +243,16 @@ impl BoundaryLoop {
         let along: f64 = (0..3).map(|k| before[k] * after[k]).sum();
         let size = across.iter().map(|a| a * a).sum::<f64>().sqrt();
         libm::atan2(size.copysign(across[2]), along)
+    }
+
+    /// Length from arc length `s` to the nearest corner beside it, at most a quarter of the loop.
+    fn room(&self, s: f64) -> f64 {
+        self.corners
+            .iter()
+            .map(|c| (c - s).abs())
+            .map(|gap| gap.min(self.length - gap))
+            .filter(|&gap| gap > 0.0)
+            .fold(0.25 * self.length, f64::min)
     }
 
     /// Arc lengths of the corners, ascending, in `0..length`.
@@ -277,7 +309,8 @@ impl BoundaryLoop {
         samples
     }
 
-    /// Whether the stretch from arc length `from` counter-clockwise to `to` is one straight line in plan.
+    /// Whether the stretch from arc length `from` counter-clockwise to `to` is one straight line in plan, to a tenth of the way
+    /// within which corners turn: a fillet at its end does not make a wall a curve.
     pub fn is_straight(&self, from: f64, to: f64) -> bool {
         let Curve::Polyline { points } = &self.curve else { return false };
         let start = self.parameter(from);
@@ -288,11 +321,23 @@ impl BoundaryLoop {
         let a = self.curve.point(start);
         let b = self.curve.point(end);
         let chord = (b[0] - a[0]).hypot(b[1] - a[1]);
+        let tolerance = (1e-9 * chord).max(0.1 * self.way);
         (start.floor() as usize + 1..end.ceil() as usize).all(|i| {
             let p = points[i % points.len()];
             let area = (b[0] - a[0]) * (p[1] - a[1]) - (p[0] - a[0]) * (b[1] - a[1]);
-            area.abs() <= 1e-9 * chord * chord
+            area.abs() <= tolerance * chord
         }) && chord > 0.0
+    }
+
+    /// Farthest that the curve from arc length `from` counter-clockwise to `to` lies from its chord in plan, m; 0 within rounding.
+    pub fn gap(&self, from: f64, to: f64) -> f64 {
+        let start = self.parameter(from);
+        let end = self.parameter(to);
+        let end = if end > start { end } else { end + self.curve.period() };
+        let (a, b) = (self.curve.point(start), self.curve.point(end));
+        let distance2 = |t| closest_on_segment(self.curve.point(t), a, b, 2).0;
+        let gap = self.curve.probes(start, end).map(distance2).fold(0.0, f64::max).sqrt();
+        if gap > 1e-9 * self.length { gap } else { 0.0 }
     }
 
     /// Enclosed plan area, m².

@@ -30,6 +30,14 @@ impl Curve {
         }
     }
 
+    /// The points of a polyline; an ellipse has none.
+    pub(super) fn points(&self) -> &[[f64; 3]] {
+        match self {
+            Self::Polyline { points } => points,
+            Self::Ellipse { .. } => &[],
+        }
+    }
+
     /// The parameters between which the curve is smooth, the period included.
     pub(super) fn breaks(&self) -> Vec<f64> {
         match self {
@@ -58,6 +66,16 @@ impl Curve {
                 [center[0] + u * turn[0] - v * turn[1], center[1] + u * turn[1] + v * turn[0], center[2]]
             }
         }
+    }
+
+    /// Parameters between two at which the curve may be farthest from the chord between them: the kinks of a polyline; seven
+    /// of an ellipse, of which the middle one is the farthest from the chord of less than half of it.
+    pub(super) fn probes(&self, start: f64, end: f64) -> impl Iterator<Item = f64> {
+        let is_polyline = matches!(self, Self::Polyline { .. });
+        let count = if is_polyline { (end.ceil() - start.floor()) as usize } else { 8 };
+        (1..count).map(move |i| {
+            if is_polyline { start.floor() + i as f64 } else { start + (end - start) * i as f64 / 8.0 }
+        })
     }
 
     /// The same curve at height 0.

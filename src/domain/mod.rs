@@ -5,6 +5,7 @@ mod boundary;
 mod check;
 mod curve;
 mod error;
+mod kinks;
 pub mod params;
 mod read;
 mod side;
@@ -21,6 +22,28 @@ use std::f64::consts::PI;
 use std::path::Path;
 use std::sync::Arc;
 
+/// How fine the patterns on a domain are to be: what is short on its boundary is short against them.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Grain {
+    /// Edges of about this length, m.
+    Length(f64),
+    /// About this many panels.
+    Panels(usize),
+}
+
+impl Grain {
+    /// Length of an edge, m, where the surface has this area, m²: of N panels √(A/N).
+    pub fn length(self, surface_area: f64) -> f64 {
+        match self {
+            Self::Length(length) => length,
+            Self::Panels(panels) => (surface_area / panels.max(1) as f64).sqrt(),
+        }
+    }
+}
+
+/// Share of a target length within which the curve turns at a corner, however many kinks it takes (PATTERN §4).
+const TURN: f64 = 0.1;
+
 /// A region of the plan with its boundary on the surface.
 #[derive(Clone)]
 pub struct Domain {
@@ -33,41 +56,64 @@ pub struct Domain {
 }
 
 impl Domain {
-    /// Makes the domain of a config on its surface and checks both against each other; files are relative to `base_dir`.
-    ///
-    /// A loop given clockwise is turned round, its first point stays the first. Where the surface is not free, the boundary is the
-    /// plan curve lifted onto it and a given z does not count.
+    /// Makes the domain of a config on its surface and checks both against each other; files are relative to `base_dir`. Corners
+    /// that are to be found are single kinks: no pattern is in view that would tell what a short way is.
     ///
     /// # Errors
-    /// See [`DomainError`]; loops and points at fault are named.
+    /// See [`Domain::resolve_for`].
     pub fn resolve(
         params: &DomainParams,
         surface: &Arc<dyn Surface>,
         base_dir: &Path,
     ) -> Result<Self, DomainError> {
+        Self::resolve_for(params, surface, base_dir, Grain::Length(0.0))
+    }
+
+    /// Makes the domain of a config on its surface, for patterns of a grain, and checks both against each other; files are
+    /// relative to `base_dir`.
+    ///
+    /// A loop given clockwise is turned round, its first point stays the first. Where the surface is not free, the boundary is the
+    /// plan curve lifted onto it and a given z does not count. Corners that are to be found are where the curve turns within a
+    /// tenth of a target length.
+    ///
+    /// # Errors
+    /// See [`DomainError`]; loops and points at fault are named.
+    pub fn resolve_for(
+        params: &DomainParams,
+        surface: &Arc<dyn Surface>,
+        base_dir: &Path,
+        grain: Grain,
+    ) -> Result<Self, DomainError> {
         if params.loops.is_empty() {
             return Err(DomainError::NoLoop);
         }
-        let read = params
+        let (curves, marked): (Vec<Curve>, Vec<_>) = params
             .loops
             .iter()
             .enumerate()
             .map(|(i, given)| read::curve(i, given, base_dir))
-            .collect::<Result<Vec<_>, _>>()?;
-        let curves: Vec<_> = read.iter().map(|(curve, _)| curve.clone()).collect();
+            .collect::<Result<Vec<_>, _>>()?
+            .into_iter()
+            .unzip();
         check::curves(&curves)?;
         check::covered(&curves, surface.as_ref())?;
+        let plan_area = curves[0].area() - curves[1..].iter().map(Curve::area).sum::<f64>();
+        let surface_area = area::on_surface(&curves, plan_area, surface.as_ref());
+        let way = TURN * grain.length(surface_area);
+        let corners: Vec<Vec<f64>> =
+            marked.into_iter().zip(&curves).map(|(marked, curve)| marked.corners(curve, way)).collect();
         let mark = match params.mark_m {
             None => curves[0].rightmost(),
-            Some(_) if read.iter().any(|(_, corners)| !corners.is_empty()) => {
+            Some(_) if corners.iter().any(|corners| !corners.is_empty()) => {
                 return Err(DomainError::MarkBesideCorners);
             }
             Some([x, y]) => curves[0].closest([x, y, 0.0], true),
         };
-        let plan_area = curves[0].area() - curves[1..].iter().map(Curve::area).sum::<f64>();
-        let surface_area = area::on_surface(&curves, plan_area, surface.as_ref());
-        let loops =
-            read.into_iter().map(|(curve, corners)| BoundaryLoop::new(curve, surface, corners)).collect();
+        let loops = curves
+            .into_iter()
+            .zip(corners)
+            .map(|(curve, corners)| BoundaryLoop::new(curve, surface, corners, way))
+            .collect();
         Ok(Self { loops, mark, surface_area })
     }
 
@@ -123,7 +169,8 @@ impl Domain {
         self.surface_area
     }
 
-    /// Angle within the domain at a corner, along the surface, rad: what the panels there share. π/2 in a rectangle's corner, 3π/2
+    /// Angle within the domain at a corner, along the surface, rad, between the directions a tenth of a target length before and
+    /// after it: what the panels there share. π/2 in a rectangle's corner, 3π/2
     /// at a re-entrant one and at the corner of a rectangular hole. π where there is no such corner, as
     /// anywhere on a smooth boundary.
     pub fn corner_angle(&self, corner: usize) -> f64 {

@@ -1,5 +1,6 @@
 //! The `[domain]` table of the config.
 
+pub use crate::io::LengthUnit;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -51,7 +52,8 @@ pub enum LoopParams {
         /// Which points are corners.
         #[serde(default)]
         corners: Corners,
-        /// With `corners = "auto"`: a point is a corner where the curve turns by more than this, in degrees.
+        /// With `corners = "auto"`: a corner is where the curve turns by more than this within a tenth of the target length, in
+        /// degrees.
         #[serde(default = "default_corner_angle")]
         #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 180))]
         corner_angle_deg: f64,
@@ -81,13 +83,17 @@ pub enum LoopParams {
     Obj {
         /// The file, relative to the config.
         file: PathBuf,
+        /// Unit of the file's coordinates: `m` (the default), `cm`, `mm`, `ft` or `in`.
+        #[serde(default, skip_serializing_if = "LengthUnit::is_metre")]
+        unit: LengthUnit,
         /// Which polyline of the file, from 0.
         #[serde(default)]
         polyline: usize,
         /// Which points are corners.
         #[serde(default = "Corners::auto")]
         corners: Corners,
-        /// With `corners = "auto"`: a point is a corner where the curve turns by more than this, in degrees.
+        /// With `corners = "auto"`: a corner is where the curve turns by more than this within a tenth of the target length, in
+        /// degrees.
         #[serde(default = "default_corner_angle")]
         #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 180))]
         corner_angle_deg: f64,
@@ -110,7 +116,7 @@ pub enum Corners {
 pub enum CornerRule {
     /// Every point is a corner.
     All,
-    /// Points where the curve turns by more than `corner_angle_deg`.
+    /// Places where the curve turns by more than `corner_angle_deg` within a tenth of the target length.
     Auto,
 }
 

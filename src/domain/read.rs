@@ -1,17 +1,37 @@
-//! From a loop of the config to a curve and its corners.
+//! From a loop of the config to a curve and what tells its corners.
 
 use super::curve::{Curve, signed_area};
 use super::error::DomainError;
+use super::kinks;
 use super::params::{CornerRule, Corners, LoopParams};
-use crate::io::obj;
+use crate::io::{LengthUnit, obj};
 use std::path::Path;
 
-/// The curve of a loop, counter-clockwise, and the parameters of its corners.
+/// What tells the corners of a curve.
+pub(super) enum Marked {
+    /// Their parameters.
+    At(Vec<f64>),
+    /// That it turns there by more than this angle within a short way, rad.
+    Turning(f64),
+}
+
+impl Marked {
+    /// Parameters of the corners; `way` is how short a way is, m.
+    pub(super) fn corners(self, curve: &Curve, way: f64) -> Vec<f64> {
+        match (self, curve) {
+            (Self::At(corners), _) => corners,
+            (Self::Turning(angle), Curve::Polyline { points }) => kinks::find(points, angle, way),
+            (Self::Turning(_), Curve::Ellipse { .. }) => Vec::new(),
+        }
+    }
+}
+
+/// The curve of a loop, counter-clockwise, and what tells its corners.
 pub(super) fn curve(
     number: usize,
     given: &LoopParams,
     base_dir: &Path,
-) -> Result<(Curve, Vec<f64>), DomainError> {
+) -> Result<(Curve, Marked), DomainError> {
     match given {
         LoopParams::Polyline { points_m, corners, corner_angle_deg } => {
             let points = points_m
@@ -24,7 +44,7 @@ pub(super) fn curve(
         LoopParams::Circle { center_m, radius_m } => {
             let center = point(number, center_m, || "center_m".to_owned())?;
             let radius = positive(number, "radius_m", *radius_m)?;
-            Ok((Curve::Ellipse { center, axes: [radius; 2], turn: [1.0, 0.0] }, Vec::new()))
+            Ok((Curve::Ellipse { center, axes: [radius; 2], turn: [1.0, 0.0] }, Marked::At(Vec::new())))
         }
         LoopParams::Ellipse { center_m, semi_axes_m, rotation_deg } => {
             let center = point(number, center_m, || "center_m".to_owned())?;
@@ -33,10 +53,13 @@ pub(super) fn curve(
                 positive(number, "semi_axes_m", semi_axes_m[1])?,
             ];
             let angle = finite(number, || "rotation_deg".to_owned(), *rotation_deg)?.to_radians();
-            Ok((Curve::Ellipse { center, axes, turn: [libm::cos(angle), libm::sin(angle)] }, Vec::new()))
+            Ok((
+                Curve::Ellipse { center, axes, turn: [libm::cos(angle), libm::sin(angle)] },
+                Marked::At(Vec::new()),
+            ))
         }
-        LoopParams::Obj { file, polyline: index, corners, corner_angle_deg } => {
-            let points = obj_points(number, &base_dir.join(file), *index)?;
+        LoopParams::Obj { file, unit, polyline: index, corners, corner_angle_deg } => {
+            let points = obj_points(number, &base_dir.join(file), *unit, *index)?;
             polyline(number, points, corners, *corner_angle_deg)
         }
     }
@@ -69,8 +92,13 @@ fn point(loop_number: usize, given: &[f64], what: impl Fn() -> String) -> Result
 
 /// The points of a closed polyline of an OBJ file. It is closed when it ends in its first vertex, or at the place of it:
 /// exporters write that vertex twice.
-fn obj_points(loop_number: usize, file: &Path, index: usize) -> Result<Vec<[f64; 3]>, DomainError> {
-    let obj = obj::read(file).map_err(|error| DomainError::File { loop_number, error })?;
+fn obj_points(
+    loop_number: usize,
+    file: &Path,
+    unit: LengthUnit,
+    index: usize,
+) -> Result<Vec<[f64; 3]>, DomainError> {
+    let obj = obj::read(file, unit).map_err(|error| DomainError::File { loop_number, error })?;
     let name = || file.display().to_string();
     let Some(polyline) = obj.polylines.get(index) else {
         let found = obj.polylines.len();
@@ -86,13 +114,13 @@ fn obj_points(loop_number: usize, file: &Path, index: usize) -> Result<Vec<[f64;
     Ok(points)
 }
 
-/// A polyline from its points: turned counter-clockwise, its corners found.
+/// A polyline from its points, turned counter-clockwise.
 fn polyline(
     loop_number: usize,
     mut points: Vec<[f64; 3]>,
     corners: &Corners,
     angle_deg: f64,
-) -> Result<(Curve, Vec<f64>), DomainError> {
+) -> Result<(Curve, Marked), DomainError> {
     let count = points.len();
     if count < 3 {
         return Err(DomainError::TooFewPoints { loop_number, found: count });
@@ -108,20 +136,21 @@ fn polyline(
         }
     }
     super::check::simple(loop_number, &points)?;
+    let is_clockwise = signed_area(&points) < 0.0;
+    if is_clockwise {
+        // The first point stays the first.
+        points[1..].reverse();
+    }
     let chosen = match corners {
-        Corners::Rule(CornerRule::All) => (0..count).collect(),
         Corners::Rule(CornerRule::Auto) => {
-            (0..count).filter(|&i| turning(&points, i).abs() > angle_deg.to_radians()).collect()
+            return Ok((Curve::Polyline { points }, Marked::Turning(angle_deg.to_radians())));
         }
+        Corners::Rule(CornerRule::All) => (0..count).collect(),
         Corners::Indices(given) => checked_corners(loop_number, given, count)?,
     };
-    if signed_area(&points) >= 0.0 {
-        return Ok((Curve::Polyline { points }, chosen.into_iter().map(|i| i as f64).collect()));
-    }
-    // Clockwise: the first point stays the first.
-    points[1..].reverse();
-    let corners = chosen.into_iter().map(|i| ((count - i) % count) as f64).collect();
-    Ok((Curve::Polyline { points }, corners))
+    let turned = |i: usize| if is_clockwise { (count - i) % count } else { i };
+    let corners = chosen.into_iter().map(|i| turned(i) as f64).collect();
+    Ok((Curve::Polyline { points }, Marked::At(corners)))
 }
 
 fn checked_corners(loop_number: usize, given: &[usize], count: usize) -> Result<Vec<usize>, DomainError> {
@@ -135,12 +164,4 @@ fn checked_corners(loop_number: usize, given: &[usize], count: usize) -> Result<
         }
     }
     Ok(given.to_vec())
-}
-
-/// Angle by which a closed polyline turns at point `i` in plan, in −π..π.
-fn turning(points: &[[f64; 3]], i: usize) -> f64 {
-    let count = points.len();
-    let (a, b, c) = (points[(i + count - 1) % count], points[i], points[(i + 1) % count]);
-    let (u, v) = ([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]]);
-    libm::atan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1])
 }

@@ -1,13 +1,16 @@
-//! Folds and vertices outside the domain (GEOMETRY §2.5).
+//! Folds, vertices outside the domain (GEOMETRY §2.5), vertices at one place (PATTERN §5).
 
 use super::pattern::{Panel, Pattern};
 use super::rejection::Rejection;
-use super::vector::{Vec3, add, cross, dot, norm, scale, sub};
+use super::vector::{Vec3, add, cross, distance, dot, norm, scale, sub};
 use crate::domain::Domain;
 use crate::surface::{Surface, SurfaceKind};
 
 /// A panel is folded when its vector area along the surface normal is at most this share of t².
 const FOLD_SHARE: f64 = 1e-9;
+
+/// Vertices nearer than this share of t are at one place.
+const COINCIDENT_SHARE: f64 = 1e-6;
 
 /// ½ (c − a) × (d − b) of a quad, ½ (b − a) × (c − a) of a triangle.
 pub fn vector_area(positions: &[Vec3], panel: &Panel) -> Vec3 {
@@ -82,10 +85,41 @@ pub fn vertices_outside(pattern: &Pattern, domain: &Domain, surface: &dyn Surfac
         .collect()
 }
 
-/// Refuses a pattern with a position that is no number, a folded panel or a vertex outside the domain.
+/// Pairs of vertices at one place, the nearest first: the ends of edges, and boundary vertices without an edge between them. A
+/// solver would find a singular system there and could not say where.
+fn coincident_pairs(pattern: &Pattern) -> Vec<(f64, [u32; 2], bool)> {
+    let limit = COINCIDENT_SHARE * pattern.target_length;
+    let place = |v: u32| pattern.positions[v as usize];
+    let mut pairs: Vec<(f64, [u32; 2], bool)> = Vec::new();
+    let mut try_pair = |[u, v]: [u32; 2], is_edge: bool| {
+        let gap = distance(place(u), place(v));
+        if gap < limit {
+            pairs.push((gap, [u, v], is_edge));
+        }
+    };
+    for &edge in &pattern.edges {
+        try_pair(edge, true);
+    }
+    // Swept by x: only those that are near in it are looked at.
+    let mut boundary: Vec<u32> = pattern.loops.iter().flatten().copied().collect();
+    boundary.sort_by(|&u, &v| place(u)[0].total_cmp(&place(v)[0]).then(u.cmp(&v)));
+    for (i, &u) in boundary.iter().enumerate() {
+        for &v in boundary[i + 1..].iter().take_while(|&&v| place(v)[0] - place(u)[0] < limit) {
+            let pair = [u.min(v), u.max(v)];
+            if pattern.edges.binary_search(&pair).is_err() {
+                try_pair(pair, false);
+            }
+        }
+    }
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    pairs
+}
+
+/// Refuses a pattern with a position that is no number, a folded panel, a vertex outside the domain or two at one place.
 ///
 /// # Errors
-/// [`Rejection::NotFinite`], [`Rejection::Folds`] or [`Rejection::OutsideDomain`], the first that holds.
+/// [`Rejection::NotFinite`], [`Rejection::Folds`], [`Rejection::OutsideDomain`] or [`Rejection::Coincident`], the first that
+/// holds.
 pub fn check(pattern: &Pattern, domain: &Domain, surface: &dyn Surface) -> Result<(), Rejection> {
     if !pattern.positions.iter().flatten().all(|x| x.is_finite()) {
         return Err(Rejection::NotFinite { stage: "relaxing" });
@@ -95,8 +129,17 @@ pub fn check(pattern: &Pattern, domain: &Domain, surface: &dyn Surface) -> Resul
     if folded > 0 {
         return Err(Rejection::Folds { folded, panels });
     }
-    match vertices_outside(pattern, domain, surface).len() {
-        0 => Ok(()),
-        vertices => Err(Rejection::OutsideDomain { vertices, panels }),
+    let vertices = vertices_outside(pattern, domain, surface).len();
+    if vertices > 0 {
+        return Err(Rejection::OutsideDomain { vertices, panels });
+    }
+    let pairs = coincident_pairs(pattern);
+    match pairs.first() {
+        None => Ok(()),
+        Some(&(distance, vertices, is_edge)) => {
+            let [a, b] = vertices.map(|v| pattern.positions[v as usize]);
+            let place = scale(add(a, b), 0.5);
+            Err(Rejection::Coincident { vertices, is_edge, place, distance, pairs: pairs.len(), panels })
+        }
     }
 }

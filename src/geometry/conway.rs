@@ -193,6 +193,7 @@ mod tests {
             panels: vec![Panel::quad([0, 1, 2, 4]), Panel::quad([2, 3, 0, 4])],
             edges: vec![[0, 1], [0, 3], [0, 4], [1, 2], [2, 3], [2, 4]],
             loops: vec![vec![0, 1, 2, 3]],
+            along: Vec::new(),
             corners: Vec::new(),
             loop_corners: std::iter::once(0..0).collect(),
             coarse: (0..5).collect(),

@@ -69,7 +69,13 @@ fn tied(lengths: &[f64]) -> Vec<f64> {
     tied
 }
 
-fn at_fineness(coarse: &Coarse<'_>, lengths: &[f64], fineness: Fineness, most: &[u32], least: &[u32]) -> Vec<u32> {
+fn at_fineness(
+    coarse: &Coarse<'_>,
+    lengths: &[f64],
+    fineness: Fineness,
+    most: &[u32],
+    least: &[u32],
+) -> Vec<u32> {
     let rows = |width: f64| -> Vec<u32> {
         let of = |s: usize| (((lengths[s] / width + 0.5).floor() as u32).max(1)).min(most[s]).max(least[s]);
         (0..lengths.len()).map(of).collect()
@@ -105,7 +111,8 @@ fn fill_sides(lengths: &[f64], bounds: &Bounds, rows: &mut [u32], least: &mut [u
             let there: u32 = side.strips.iter().map(|&s| rows[s as usize]).sum();
             if there < side.need {
                 let width = |s: u32| lengths[s as usize] / f64::from(rows[s as usize]);
-                let free = || side.strips.iter().copied().filter(|&s| rows[s as usize] < bounds.most[s as usize]);
+                let free =
+                    || side.strips.iter().copied().filter(|&s| rows[s as usize] < bounds.most[s as usize]);
                 let widest = free().map(width).fold(0.0, f64::max);
                 free().filter(|&s| width(s) >= widest * (1.0 - TIE)).for_each(|s| chosen[s as usize] = true);
             }

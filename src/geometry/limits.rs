@@ -1,9 +1,10 @@
 //! Limits of a pattern that can be built (PATTERN §5).
 
-use super::metrics::{edge_lengths, panel_area, valences};
+use super::metrics::{Fabrication, edge_lengths, least_inner, panel_area, smallest_angle, valences};
+use super::outline;
 use super::params::LimitParams;
 use super::pattern::Pattern;
-use super::vector::{angle, sub};
+use crate::domain::Domain;
 
 /// Share of the target length that a member has at least, and that the boundary may lie off the pattern's at most, where
 /// the config does not say (PATTERN §5).
@@ -59,36 +60,77 @@ pub struct LimitExcess {
     pub excess: f64,
 }
 
-/// All limits on one pattern, kept or not, in the order of the keys.
-pub fn excesses(pattern: &Pattern, limits: &Limits) -> Vec<LimitExcess> {
-    let t = limits.target_length;
-    let lengths = edge_lengths(pattern);
-    let shortest = lengths.iter().copied().fold(f64::INFINITY, f64::min);
-    let longest = lengths.iter().copied().fold(0.0, f64::max);
-    let most = valences(pattern).into_iter().max().unwrap_or(0);
-    let mut rows = vec![
-        at_least("min_edge_m", shortest, limits.min_edge),
-        at_most("max_edge_factor", longest / t, limits.max_edge / t),
-        at_least("min_angle_deg", smallest_angle(pattern).to_degrees(), limits.min_angle.to_degrees()),
-        at_most("max_valence", most as f64, limits.max_valence as f64),
-    ];
-    if limits.min_valence > 2 {
-        rows.push(at_least("min_valence", least_inner_valence(pattern) as f64, limits.min_valence as f64));
-    }
-    if let Some(limit) = limits.max_panel_area {
-        let largest = pattern.panels.iter().map(|p| panel_area(&pattern.positions, p)).fold(0.0, f64::max);
-        rows.push(at_most("max_panel_area_m2", largest, limit));
-    }
-    rows
+/// What limits are asked of: the extremes of one pattern.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Extremes {
+    /// Shortest edge, m.
+    pub edge_min: f64,
+    /// Longest edge, m.
+    pub edge_max: f64,
+    /// Smallest panel angle, rad.
+    pub angle_min: f64,
+    /// Most edges at a vertex.
+    pub valence_max: usize,
+    /// Fewest edges at an inner vertex; `None` where there is none.
+    pub valence_min: Option<usize>,
+    /// Largest panel, m².
+    pub panel_area_max: f64,
+    /// Farthest that the domain's boundary lies from the pattern's, m.
+    pub boundary_gap: f64,
 }
 
-/// Fewest edges at a vertex that is not on the boundary; without such a vertex as many as one can have.
-fn least_inner_valence(pattern: &Pattern) -> usize {
-    let mut valences = valences(pattern);
-    for &v in pattern.loops.iter().flatten() {
-        valences[v as usize] = usize::MAX;
+impl Extremes {
+    /// Measures a pattern for its limits alone.
+    pub fn of(pattern: &Pattern, domain: &Domain) -> Self {
+        let lengths = edge_lengths(pattern);
+        let valences = valences(pattern);
+        Self {
+            edge_min: lengths.iter().copied().fold(f64::INFINITY, f64::min),
+            edge_max: lengths.iter().copied().fold(0.0, f64::max),
+            angle_min: smallest_angle(pattern),
+            valence_max: valences.iter().copied().max().unwrap_or(0),
+            valence_min: least_inner(&valences, pattern),
+            panel_area_max: pattern
+                .panels
+                .iter()
+                .map(|p| panel_area(&pattern.positions, p))
+                .fold(0.0, f64::max),
+            boundary_gap: outline::gap(pattern, domain),
+        }
     }
-    valences.into_iter().min().unwrap_or(usize::MAX)
+}
+
+impl From<&Fabrication> for Extremes {
+    fn from(measured: &Fabrication) -> Self {
+        Self {
+            edge_min: measured.edge_min,
+            edge_max: measured.edge_max,
+            angle_min: measured.angle_min,
+            valence_max: measured.valence_max,
+            valence_min: measured.valence_min,
+            panel_area_max: measured.panel_area_max,
+            boundary_gap: measured.boundary_gap,
+        }
+    }
+}
+
+/// All limits on a pattern with these extremes, kept or not.
+pub fn excesses(found: &Extremes, limits: &Limits) -> Vec<LimitExcess> {
+    let t = limits.target_length;
+    let mut rows = vec![
+        at_least("min_edge_m", found.edge_min, limits.min_edge),
+        at_most("max_edge_factor", found.edge_max / t, limits.max_edge / t),
+        at_least("min_angle_deg", found.angle_min.to_degrees(), limits.min_angle.to_degrees()),
+        at_most("max_valence", found.valence_max as f64, limits.max_valence as f64),
+    ];
+    if let (3.., Some(least)) = (limits.min_valence, found.valence_min) {
+        rows.push(at_least("min_valence", least as f64, limits.min_valence as f64));
+    }
+    if let Some(limit) = limits.max_panel_area {
+        rows.push(at_most("max_panel_area_m2", found.panel_area_max, limit));
+    }
+    rows.push(at_most("max_boundary_gap_m", found.boundary_gap, limits.max_gap));
+    rows
 }
 
 fn at_most(name: &'static str, value: f64, limit: f64) -> LimitExcess {
@@ -99,18 +141,4 @@ fn at_most(name: &'static str, value: f64, limit: f64) -> LimitExcess {
 fn at_least(name: &'static str, value: f64, limit: f64) -> LimitExcess {
     let excess = if limit > 0.0 { (1.0 - value / limit).max(0.0) } else { 0.0 };
     LimitExcess { name, value, limit, excess }
-}
-
-/// Smallest angle of all panels, triangles included, rad.
-fn smallest_angle(pattern: &Pattern) -> f64 {
-    let mut least = f64::INFINITY;
-    for panel in &pattern.panels {
-        let corners = panel.corners();
-        let n = corners.len();
-        for i in 0..n {
-            let at = |k: usize| pattern.positions[corners[k % n] as usize];
-            least = least.min(angle(sub(at(i + 1), at(i)), sub(at(i + n - 1), at(i))));
-        }
-    }
-    least
 }

@@ -2,8 +2,10 @@
 
 use super::check::{center, vector_area};
 use super::coarse::{Coarse, corners_of};
+use super::outline;
 use super::pattern::{Panel, Pattern};
 use super::vector::{Vec3, add, angle, cross, distance, dot, norm, scale, sub};
+use crate::domain::Domain;
 use crate::mesh::CanonicalMesh;
 use std::f64::consts::FRAC_PI_2;
 
@@ -58,6 +60,12 @@ pub struct Fabrication {
     pub triangles: usize,
     /// Most edges at a vertex.
     pub valence_max: usize,
+    /// Fewest edges at an inner vertex; `None` where there is none.
+    pub valence_min: Option<usize>,
+    /// Farthest that the domain's boundary lies from the pattern's in plan, m.
+    pub boundary_gap: f64,
+    /// Plan area of the pattern ÷ that of the domain.
+    pub area_covered: f64,
     /// Sum of the edge lengths, m.
     pub member_length: f64,
     /// Strips of the reduced coarse mesh.
@@ -103,8 +111,8 @@ impl Singularities {
     }
 }
 
-/// Measures a pattern; `mesh` is the canonical mesh it was developed from.
-pub fn measure(pattern: &Pattern, mesh: &CanonicalMesh) -> Fabrication {
+/// Measures a pattern on its domain; `mesh` is the canonical mesh it was developed from.
+pub fn measure(pattern: &Pattern, mesh: &CanonicalMesh, domain: &Domain) -> Fabrication {
     let lengths: Vec<f64> = edge_lengths(pattern);
     let edges = Spread::of(&lengths);
     let all: Vec<PanelShape> =
@@ -115,6 +123,7 @@ pub fn measure(pattern: &Pattern, mesh: &CanonicalMesh) -> Fabrication {
     let curvature = Spread::of(&quads.iter().map(|s| s.curvature).collect::<Vec<_>>());
     let skewness = Spread::of(&quads.iter().map(|s| s.skewness).collect::<Vec<_>>());
     let planarity = Spread::of(&quads.iter().map(|s| s.planarity).collect::<Vec<_>>());
+    let valences = valences(pattern);
     let aspect = Spread::of(&all.iter().map(|s| s.aspect).collect::<Vec<_>>());
     let by_area = |value: fn(&PanelShape) -> f64| {
         let total: f64 = quads.iter().map(|s| s.area).sum();
@@ -144,7 +153,10 @@ pub fn measure(pattern: &Pattern, mesh: &CanonicalMesh) -> Fabrication {
         members: pattern.edges.len(),
         panels: pattern.panels.len(),
         triangles: pattern.panels.iter().filter(|p| p.is_triangle()).count(),
-        valence_max: valences(pattern).into_iter().max().unwrap_or(0),
+        valence_max: valences.iter().copied().max().unwrap_or(0),
+        valence_min: least_inner(&valences, pattern),
+        boundary_gap: outline::gap(pattern, domain),
+        area_covered: outline::area(pattern) / domain.area(),
         member_length: lengths.iter().sum(),
         strips: mesh.strips.len(),
         singularities: Singularities::of(mesh),
@@ -167,6 +179,27 @@ pub fn valences(pattern: &Pattern) -> Vec<usize> {
         valences[v as usize] += 1;
     }
     valences
+}
+
+/// The least of the valences of inner vertices.
+pub fn least_inner(valences: &[usize], pattern: &Pattern) -> Option<usize> {
+    let mut is_inner = vec![true; valences.len()];
+    for &v in pattern.loops.iter().flatten() {
+        is_inner[v as usize] = false;
+    }
+    valences.iter().zip(is_inner).filter_map(|(&valence, is_inner)| is_inner.then_some(valence)).min()
+}
+
+/// Smallest angle of all corners of all panels, triangles included, rad; 0 where an arm has no length.
+pub fn smallest_angle(pattern: &Pattern) -> f64 {
+    let of_panel = |panel: &Panel| {
+        let mut corners = [[0.0; 3]; 4];
+        for (place, &v) in corners.iter_mut().zip(panel.corners()) {
+            *place = pattern.positions[v as usize];
+        }
+        least_angle(&corners[..panel.corners().len()])
+    };
+    pattern.panels.iter().map(of_panel).fold(f64::INFINITY, f64::min)
 }
 
 /// Area of a panel: the four triangles about the mean of its corners; of a triangle its own, m².
@@ -223,17 +256,21 @@ fn best_fit_normal(points: &[Vec3], centroid: Vec3) -> Vec3 {
 
 /// max((θmax − 90°)/90°, (90° − θmin)/90°) over the corners of a quad (COMPAS 2 `Mesh.face_skewness`).
 pub fn panel_skewness(corners: &[Vec3]) -> f64 {
-    let angles = corner_angles(corners);
-    let (least, most) = angles.iter().fold((f64::INFINITY, 0.0f64), |(l, m), &a| (l.min(a), m.max(a)));
+    let (least, most) =
+        corner_angles(corners).fold((f64::INFINITY, 0.0f64), |(least, most), a| (least.min(a), most.max(a)));
     ((most - FRAC_PI_2) / FRAC_PI_2).max((FRAC_PI_2 - least) / FRAC_PI_2)
 }
 
-/// Angle at each corner, 0..π.
-fn corner_angles(corners: &[Vec3]) -> Vec<f64> {
+/// Angle at each corner of a panel, 0..π.
+fn corner_angles(corners: &[Vec3]) -> impl Iterator<Item = f64> {
     let n = corners.len();
     (0..n)
-        .map(|i| angle(sub(corners[(i + 1) % n], corners[i]), sub(corners[(i + n - 1) % n], corners[i])))
-        .collect()
+        .map(move |i| angle(sub(corners[(i + 1) % n], corners[i]), sub(corners[(i + n - 1) % n], corners[i])))
+}
+
+/// The smallest of them.
+fn least_angle(corners: &[Vec3]) -> f64 {
+    corner_angles(corners).fold(f64::INFINITY, f64::min)
 }
 
 struct PanelShape {
@@ -264,7 +301,7 @@ impl PanelShape {
             area: panel_area(positions, panel),
             aspect: sides.iter().copied().fold(0.0, f64::max)
                 / sides.iter().copied().fold(f64::INFINITY, f64::min),
-            angle_min: corner_angles(&corners).into_iter().fold(f64::INFINITY, f64::min),
+            angle_min: least_angle(&corners),
             reflex: (0..n).filter(is_reflex).count(),
         }
     }

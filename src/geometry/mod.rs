@@ -20,6 +20,7 @@ pub mod laplacian;
 pub mod limits;
 pub mod metrics;
 pub mod optimise;
+pub mod outline;
 pub mod params;
 pub mod pattern;
 pub mod place;

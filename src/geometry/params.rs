@@ -1,6 +1,7 @@
 //! The `[pattern]` table of the config.
 
-use crate::domain::Domain;
+use crate::domain::params::LengthUnit;
+use crate::domain::{Domain, Grain};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -40,13 +41,18 @@ impl Default for PatternParams {
 }
 
 impl PatternParams {
+    /// How fine the patterns are, as the domain takes it.
+    pub fn grain(&self) -> Grain {
+        match (self.density, self.target_length_m) {
+            (Density::TargetLength, Some(length)) => Grain::Length(length),
+            _ => Grain::Panels(self.panels),
+        }
+    }
+
     /// Target edge length t of all designs on a domain, m: the given one, or with `density = "panels"` √(A/N) for N panels on the
     /// area A of the surface (PATTERN §2).
     pub fn target_length(&self, domain: &Domain) -> f64 {
-        match (self.density, self.target_length_m) {
-            (Density::TargetLength, Some(length)) => length,
-            _ => (domain.surface_area() / self.panels.max(1) as f64).sqrt(),
-        }
+        self.grain().length(domain.surface_area())
     }
 }
 
@@ -178,6 +184,9 @@ pub enum InitialMesh {
     File {
         /// The file, relative to the config.
         file: std::path::PathBuf,
+        /// Unit of the file's coordinates: `m` (the default), `cm`, `mm`, `ft` or `in`.
+        #[serde(default, skip_serializing_if = "LengthUnit::is_metre")]
+        unit: LengthUnit,
     },
     /// A rectangular grid of m × n faces, for a domain with four corners and no hole.
     Grid {

@@ -57,6 +57,21 @@ pub enum Rejection {
         /// Number of all panels.
         panels: usize,
     },
+    /// Edges without length, or different boundary vertices at one place.
+    Coincident {
+        /// The nearest two.
+        vertices: [u32; 2],
+        /// Whether an edge joins them.
+        is_edge: bool,
+        /// Middle between them, m.
+        place: [f64; 3],
+        /// Their distance, m.
+        distance: f64,
+        /// How many such pairs there are.
+        pairs: usize,
+        /// Number of all panels.
+        panels: usize,
+    },
     /// A position that is no number.
     NotFinite {
         /// The stage of geometry that made it.
@@ -68,7 +83,7 @@ impl Rejection {
     /// The stage by which failures are ranked: 3 folds, 4 pinched or flat, 5 too many faces, 6 not finite.
     pub fn stage(&self) -> u8 {
         match self {
-            Self::Folds { .. } | Self::OutsideDomain { .. } => 3,
+            Self::Folds { .. } | Self::OutsideDomain { .. } | Self::Coincident { .. } => 3,
             Self::Flat { .. } | Self::Pinched { .. } | Self::Crowded { .. } | Self::CornerLost { .. } => 4,
             Self::TooManyFaces { .. } => 5,
             Self::NotFinite { .. } | Self::OtherLoops { .. } => 6,
@@ -80,6 +95,7 @@ impl Rejection {
         match self {
             Self::Folds { folded, panels } => *folded as f64 / *panels as f64,
             Self::OutsideDomain { vertices, panels } => *vertices as f64 / *panels as f64,
+            Self::Coincident { pairs, panels, .. } => *pairs as f64 / *panels as f64,
             Self::Flat { faces, edges } => (faces.len() + edges.len()) as f64,
             Self::Pinched { vertices } => vertices.len() as f64,
             Self::Crowded { excess, .. } => *excess,
@@ -97,7 +113,11 @@ impl fmt::Display for Rejection {
             }
             Self::Pinched { vertices } => write!(f, "pinched: {} boundary vertices", vertices.len()),
             Self::Crowded { vertices, .. } => {
-                write!(f, "crowded: {} vertices have too many or too few panels in every pattern", vertices.len())
+                write!(
+                    f,
+                    "crowded: {} vertices have too many or too few panels in every pattern",
+                    vertices.len()
+                )
             }
             Self::CornerLost { corner } => write!(f, "corner {corner} finds no boundary vertex"),
             Self::OtherLoops { mesh, domain } => {
@@ -106,6 +126,13 @@ impl fmt::Display for Rejection {
             Self::TooManyFaces { n, max } => write!(f, "{n} panels, at most {max} allowed"),
             Self::Folds { folded, panels } => write!(f, "{folded} of {panels} panels folded"),
             Self::OutsideDomain { vertices, .. } => write!(f, "{vertices} vertices outside the domain"),
+            Self::Coincident { vertices: [u, v], is_edge, place: [x, y, z], distance, .. } => {
+                let what = if *is_edge { "joined by a member" } else { "both on the boundary" };
+                write!(
+                    f,
+                    "vertices {u} and {v}, {what}, stand on one place near ({x:.3}, {y:.3}, {z:.3}), {distance:.1e} m apart"
+                )
+            }
             Self::NotFinite { stage } => write!(f, "a position is not finite after {stage}"),
         }
     }

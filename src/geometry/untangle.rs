@@ -93,7 +93,8 @@ impl<'a, 'b> Flat<'a, 'b> {
         let mut corners = Vec::with_capacity(4 * net.sheet.quads.len());
         for quad in &net.sheet.quads {
             let count = if quad[2] == quad[3] { 3 } else { 4 };
-            corners.extend((0..count).map(|i| [quad[i], quad[(i + 1) % count], quad[(i + count - 1) % count]]));
+            corners
+                .extend((0..count).map(|i| [quad[i], quad[(i + 1) % count], quad[(i + count - 1) % count]]));
         }
         corners.retain(|corner| !net.is_silent[corner[0] as usize]);
         let places = net.places();

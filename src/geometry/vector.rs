@@ -45,8 +45,11 @@ pub fn distance(a: Vec3, b: Vec3) -> f64 {
     norm(sub(a, b))
 }
 
-/// Angle between two vectors, in 0..π; accurate also for small and nearly straight ones.
+/// Angle between two vectors, in 0..π; accurate also for small and nearly straight ones. It is 0 where one of them has no length:
+/// a corner with such an arm is no corner at all, the worst that there is.
 #[inline]
 pub fn angle(a: Vec3, b: Vec3) -> f64 {
-    libm::atan2(norm(cross(a, b)), dot(a, b))
+    let (across, along) = (norm(cross(a, b)), dot(a, b));
+    // The product with a vector of zeros may be −0, of which atan2 would make π.
+    if across == 0.0 && along == 0.0 { 0.0 } else { libm::atan2(across, along) }
 }

@@ -2,6 +2,9 @@
 
 pub mod compas;
 pub mod obj;
+mod unit;
+
+pub use unit::LengthUnit;
 
 use std::path::{Path, PathBuf};
 

@@ -3,7 +3,7 @@
 //! What exporters really do (ECOSYSTEM §3b): `a/b/c` corners, negative indices, `\`-continued lines, CRLF, comments in other
 //! encodings, and curves in pieces of two vertices. All of that is read; free-form geometry, groups and materials are left out.
 
-use super::{ReadError, read_bytes};
+use super::{LengthUnit, ReadError, read_bytes};
 use crate::mesh::BaseMesh;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -12,7 +12,7 @@ use std::path::Path;
 /// What an OBJ file holds, vertex numbers from 0.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct ObjFile {
-    /// Vertex positions, in the file's unit (metres are assumed).
+    /// Vertex positions: in metres from [`read`], in the file's unit from [`parse`].
     pub vertices: Vec<[f64; 3]>,
     /// For each vertex, its line in the file, from 1.
     pub vertex_lines: Vec<usize>,
@@ -26,17 +26,19 @@ pub struct ObjFile {
     pub polyline_lines: Vec<usize>,
 }
 
-/// Reads a file.
+/// Reads a file whose coordinates have the given unit.
 ///
 /// # Errors
 /// A file that cannot be opened, or the first line that is wrong.
-pub fn read(file: &Path) -> Result<ObjFile, ReadError> {
+pub fn read(file: &Path, unit: LengthUnit) -> Result<ObjFile, ReadError> {
     let bytes = read_bytes(file)?;
-    parse(&String::from_utf8_lossy(&bytes)).map_err(|(line, reason)| ReadError::Line {
+    let mut obj = parse(&String::from_utf8_lossy(&bytes)).map_err(|(line, reason)| ReadError::Line {
         file: file.to_owned(),
         line,
         reason,
-    })
+    })?;
+    obj.vertices.iter_mut().for_each(|position| *position = position.map(|c| unit.metres(c)));
+    Ok(obj)
 }
 
 /// Keywords of the format that say nothing about a polygon mesh.

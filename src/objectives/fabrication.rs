@@ -206,3 +206,23 @@ pub const REFLEX_CORNERS: Metric = Metric {
     structural: false,
     value: |design| Some(design.fabrication.reflex_corners as f64),
 };
+
+/// How far the boundary is off.
+pub const BOUNDARY_GAP: Metric = Metric {
+    name: "boundary_gap",
+    column: "boundary_gap_m",
+    unit: "m",
+    about: "farthest that the domain's boundary lies from the pattern's in plan",
+    structural: false,
+    value: |design| Some(design.fabrication.boundary_gap),
+};
+
+/// How much of the plan is covered.
+pub const AREA_COVERED: Metric = Metric {
+    name: "area_covered",
+    column: "area_covered",
+    unit: "",
+    about: "plan area of the pattern ÷ that of the domain",
+    structural: false,
+    value: |design| Some(design.fabrication.area_covered),
+};

@@ -83,6 +83,8 @@ pub const METRICS: &[&Metric] = &[
     &fabrication::SKEWNESS_MAX,
     &fabrication::ANGLE_MIN,
     &fabrication::REFLEX_CORNERS,
+    &fabrication::BOUNDARY_GAP,
+    &fabrication::AREA_COVERED,
 ];
 
 /// The metric of a name.

@@ -14,6 +14,7 @@ pub mod load;
 pub mod manifest;
 pub mod number;
 pub mod obj;
+pub mod obstacles;
 pub mod polygons;
 pub mod report;
 pub mod results;

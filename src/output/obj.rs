@@ -1,8 +1,7 @@
 //! Wavefront OBJ.
 
-use super::number::shortest;
+use super::number::{push_integer, push_shortest};
 use super::polygons::Polygons;
-use std::fmt::Write;
 
 /// A mesh as OBJ: metres, z up, positive indices, all digits.
 ///
@@ -10,13 +9,18 @@ use std::fmt::Write;
 pub fn obj(mesh: &Polygons<'_>, id: &str) -> Vec<u8> {
     let mut text = format!("# quadrille {}\n# units: m\n# z up\no {id}\n", env!("CARGO_PKG_VERSION"));
     for position in mesh.positions {
-        let [x, y, z] = position.map(|c| shortest(c).unwrap_or_default());
-        let _ = writeln!(text, "v {x} {y} {z}");
+        text.push('v');
+        for &coordinate in position {
+            text.push(' ');
+            push_shortest(&mut text, coordinate);
+        }
+        text.push('\n');
     }
     for face in &mesh.faces {
         text.push('f');
         for vertex in *face {
-            let _ = write!(text, " {}", vertex + 1);
+            text.push(' ');
+            push_integer(&mut text, vertex + 1);
         }
         text.push('\n');
     }

@@ -8,14 +8,16 @@ use super::folder::{self, Folder, FolderError, excel_name};
 use super::generations::{generations, operators};
 use super::manifest::{self, Counts, Host, Manifest, Status, timestamp};
 use super::obj::obj;
+use super::obstacles::nearest_misses;
 use super::polygons::Polygons;
 use super::svg::{Shade, svg};
 use super::table::{Dialect, Table};
 use crate::config::{self, Config};
+use crate::mesh::CanonicalMesh;
 use crate::objectives::METRICS;
-use crate::search::{Ended, EvaluatedRow, Outcome};
-use crate::structure::gridshell::{self, Detailed};
-use crate::study::{Design, Effort, Study};
+use crate::search::{Ended, EvaluatedRow, Evaluation, Outcome};
+use crate::structure::gridshell::{Detailed, Proof};
+use crate::study::{Design, Failure, Reached, Study};
 use rayon::prelude::*;
 use serde_json::Value as Json;
 use sha2::{Digest, Sha256};
@@ -143,8 +145,8 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Every design of the front in every format, and the copies for Design Explorer; for comparison also the initial
-    /// mesh, where it can be built.
+    /// Every design of the front in every format, and the copies for Design Explorer; without a front the designs that came
+    /// nearest; for comparison also the initial mesh, where it has a pattern.
     fn write_designs(&self, folder: &Folder, threads: usize) -> Result<(), ResultsError> {
         let front = self.front();
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
@@ -153,6 +155,12 @@ impl Run<'_> {
             pool.install(|| front.par_iter().map(|row| self.design_files(row)).collect::<Result<_, _>>())?;
         folder.clear_designs()?;
         let initial = baseline.and_then(|row| self.design_files(row).ok());
+        let misses = nearest_misses(&self.outcome.evaluated);
+        let of_miss = |&row: &usize| self.design_files(&self.outcome.evaluated[row]).ok();
+        let misses: Vec<DesignFiles> = pool.install(|| misses.par_iter().filter_map(of_miss).collect());
+        for (name, bytes) in misses.iter().flatten() {
+            folder.write(Path::new(folder::DESIGNS).join(name), bytes)?;
+        }
         for (name, bytes) in files.iter().chain(&initial).flatten() {
             folder.write(Path::new(folder::DESIGNS).join(name), bytes)?;
             if name.ends_with(".svg") {
@@ -164,9 +172,14 @@ impl Run<'_> {
     }
 
     fn design_files(&self, row: &EvaluatedRow) -> Result<DesignFiles, ResultsError> {
-        let developed = Developed::of(self.study, self.config, &row.tokens)
-            .map_err(|reason| ResultsError::Design { id: id(row.code), reason })?;
-        Ok(developed.files(&id(row.code)))
+        let id = id(row.code);
+        match Developed::of(self.study, self.study.topology(&row.tokens), Proof::Certificate) {
+            Ok(Developed { failure: Some(failure), .. }) if row.is_feasible() => {
+                Err(ResultsError::Design { id, reason: failure.reason })
+            }
+            Ok(developed) => Ok(developed.files(&id)),
+            Err(failure) => Err(ResultsError::Design { id, reason: failure.reason }),
+        }
     }
 
     fn write_manifest(&self, folder: &Folder, sitting: &Sitting, status: Status) -> Result<(), ResultsError> {
@@ -225,28 +238,50 @@ impl Run<'_> {
 /// Names of files and what is in them.
 pub type DesignFiles = Vec<(String, Vec<u8>)>;
 
-/// A design made again from its string, with all structural results.
+/// A design with all that can be had of it, for files and tables.
 pub struct Developed {
     /// Its mesh, pattern and measures.
     pub design: Design,
-    /// Its analysis; none where no structure is configured.
+    /// Its analysis; none where no structure is configured or it gives no answer.
     pub results: Option<Detailed>,
+    /// What refused it, if anything did.
+    pub failure: Option<Evaluation>,
+    /// Whether the pattern is folded or leaves the domain: then it has no measures worth a table.
+    pub folded: bool,
     first_order: bool,
 }
 
 impl Developed {
-    /// Makes a design.
+    /// Develops a topology as far as it goes.
     ///
     /// # Errors
-    /// In words, if a stage refuses it.
-    pub fn of(study: &Study, config: &Config, tokens: &crate::grammar::Tokens) -> Result<Self, String> {
-        let design =
-            study.develop(study.topology(tokens), Effort::Pattern).map_err(|failure| failure.reason)?;
-        let analyse = |structure| gridshell::analyse_detailed(&design.pattern, structure);
-        let results =
-            config.structure.as_ref().map(analyse).transpose().map_err(|error| error.to_string())?;
-        let first_order = config.structure.as_ref().is_some_and(|structure| structure.order == 1);
-        Ok(Self { design, results, first_order })
+    /// The failure of one that has no pattern.
+    pub fn of(study: &Study, topology: CanonicalMesh, proof: Proof) -> Result<Self, Failure> {
+        let first_order = study.is_first_order();
+        let failure = match study.develop_in_detail(topology, proof) {
+            Ok((design, results)) => {
+                return Ok(Self { design, results, failure: None, folded: false, first_order });
+            }
+            Err(failure) => failure,
+        };
+        let evaluation = Some(Evaluation::from(&failure));
+        let (design, folded) = match failure.reached {
+            Reached::Nothing => return Err(failure),
+            Reached::Folded(design) => (*design, true),
+            Reached::Pattern(design) => (*design, false),
+        };
+        Ok(Self { design, results: None, failure: evaluation, folded, first_order })
+    }
+
+    /// As the search and the tables take it.
+    pub fn evaluation(&self, study: &Study) -> Evaluation {
+        self.failure.clone().unwrap_or_else(|| study.evaluation(&self.design))
+    }
+
+    /// How far it came, as [`Failure::reached`] tells it.
+    pub fn reached(self) -> Reached {
+        let design = Box::new(self.design);
+        if self.folded { Reached::Folded(design) } else { Reached::Pattern(design) }
     }
 
     /// Its pattern with the analysis, for the exporters.

@@ -15,6 +15,7 @@ pub fn square_with_pole() -> Pattern {
         panels: vec![Panel::quad([0, 1, 4, 3]), Panel::triangle([2, 4, 1])],
         edges: vec![[0, 1], [0, 3], [1, 2], [1, 4], [2, 4], [3, 4]],
         loops: vec![vec![0, 1, 2, 4, 3]],
+        along: Vec::new(),
         corners: vec![0, 3],
         loop_corners: std::iter::once(0..2).collect(),
         coarse: vec![0, 1, 2, 3, 4],

@@ -1,6 +1,6 @@
 //! The plan of a pattern as SVG: panels shaded by a value, coarse edges, boundary, singularities.
 
-use super::number::rounded;
+use super::number::{push_tenths, rounded};
 use super::polygons::Polygons;
 use crate::geometry::Pattern;
 use crate::geometry::metrics::valences;
@@ -104,14 +104,33 @@ impl Frame {
     }
 
     pub(super) fn write(&self, position: [f64; 3]) -> String {
+        let mut text = String::new();
+        self.push(&mut text, position);
+        text
+    }
+
+    /// Appends the place of a position.
+    fn push(&self, text: &mut String, position: [f64; 3]) {
         let [x, y] = self.place(position);
-        format!("{} {}", rounded(x, 1), rounded(y, 1))
+        push_tenths(text, x);
+        text.push(' ');
+        push_tenths(text, y);
     }
 }
 
 pub(super) fn outline(frame: &Frame, positions: &[[f64; 3]], vertices: &[u32]) -> String {
-    let points: Vec<String> = vertices.iter().map(|&v| frame.write(positions[v as usize])).collect();
-    format!("M{}Z", points.join("L"))
+    let mut text = String::new();
+    push_outline(&mut text, frame, positions, vertices);
+    text
+}
+
+/// Appends a closed path through vertices.
+fn push_outline(text: &mut String, frame: &Frame, positions: &[[f64; 3]], vertices: &[u32]) {
+    for (place, &vertex) in vertices.iter().enumerate() {
+        text.push(if place == 0 { 'M' } else { 'L' });
+        frame.push(text, positions[vertex as usize]);
+    }
+    text.push('Z');
 }
 
 fn panels(text: &mut String, pattern: &Pattern, frame: &Frame, shade: Option<&Shade<'_>>) {
@@ -119,7 +138,7 @@ fn panels(text: &mut String, pattern: &Pattern, frame: &Frame, shade: Option<&Sh
     for (index, panel) in pattern.panels.iter().enumerate() {
         let share = shade.map_or(0.25, |shade| shade.share(index));
         let class = (share * SHADES as f64).round() as usize;
-        paths[class].push_str(&outline(frame, &pattern.positions, panel.corners()));
+        push_outline(&mut paths[class], frame, &pattern.positions, panel.corners());
     }
     text.push_str("<g class=\"panels\">\n");
     for (class, path) in paths.iter().enumerate().filter(|(_, path)| !path.is_empty()) {

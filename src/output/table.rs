@@ -1,6 +1,6 @@
 //! Tables as CSV: RFC 4180 with line feeds, and a copy for a spreadsheet with decimal commas.
 
-use super::number::shortest;
+use super::number::{push_integer, push_shortest};
 use std::io::{self, Write};
 
 /// One cell.
@@ -57,12 +57,19 @@ impl From<u64> for Cell {
 impl Cell {
     /// As in a canonical file, before quoting.
     pub(super) fn text(&self) -> String {
+        let mut text = String::new();
+        self.push(&mut text);
+        text
+    }
+
+    /// Appends it.
+    fn push(&self, text: &mut String) {
         match self {
-            Self::Text(text) => text.clone(),
-            Self::Number(number) => shortest(*number).unwrap_or_default(),
-            Self::Count(count) => count.to_string(),
-            Self::Bool(value) => value.to_string(),
-            Self::Empty => String::new(),
+            Self::Text(words) => text.push_str(words),
+            Self::Number(number) => push_shortest(text, *number),
+            Self::Count(count) => push_integer(text, *count),
+            Self::Bool(value) => text.push_str(if *value { "true" } else { "false" }),
+            Self::Empty => {}
         }
     }
 }
@@ -119,38 +126,52 @@ impl Dialect {
         if self == Self::ExcelEu {
             out.write_all(b"\xEF\xBB\xBF")?;
         }
-        self.write_line(out, columns.iter().cloned())?;
-        rows.into_iter()
-            .try_for_each(|row| self.write_line(out, row.as_ref().iter().map(|cell| self.text(cell))))
+        let columns: Vec<Cell> = columns.iter().map(|name| name.as_str().into()).collect();
+        let mut line = String::new();
+        self.write_line(out, &mut line, &columns)?;
+        rows.into_iter().try_for_each(|row| self.write_line(out, &mut line, row.as_ref()))
     }
 
-    fn text(self, cell: &Cell) -> String {
-        match (self, cell) {
-            (Self::ExcelEu, Cell::Number(_)) => cell.text().replace('.', ","),
-            _ => cell.text(),
-        }
-    }
-
-    fn write_line(self, out: &mut dyn Write, fields: impl Iterator<Item = String>) -> io::Result<()> {
+    /// Writes a line by way of `line`, room that is used again for the next.
+    fn write_line(self, out: &mut dyn Write, line: &mut String, cells: &[Cell]) -> io::Result<()> {
         let (separator, end) = match self {
-            Self::Canonical => (",", "\n"),
-            Self::ExcelEu => (";", "\r\n"),
+            Self::Canonical => (',', "\n"),
+            Self::ExcelEu => (';', "\r\n"),
         };
-        let fields: Vec<String> = fields.map(|field| quote(field, separator)).collect();
+        line.clear();
+        for (place, cell) in cells.iter().enumerate() {
+            if place > 0 {
+                line.push(separator);
+            }
+            let start = line.len();
+            cell.push(line);
+            match cell {
+                Cell::Text(text) if needs_quotes(text, separator) => {
+                    line.truncate(start);
+                    line.push('"');
+                    line.push_str(&text.replace('"', "\"\""));
+                    line.push('"');
+                }
+                Cell::Number(_) if self == Self::ExcelEu => {
+                    if let Some(point) = line[start..].find('.') {
+                        line.replace_range(start + point..=start + point, ",");
+                    }
+                }
+                _ => {}
+            }
+        }
         // A lone empty field would look like an empty line, which readers skip.
-        let line = if fields == [""] { "\"\"".to_owned() } else { fields.join(separator) };
-        out.write_all(line.as_bytes())?;
-        out.write_all(end.as_bytes())
+        if line.is_empty() && cells.len() == 1 {
+            line.push_str("\"\"");
+        }
+        line.push_str(end);
+        out.write_all(line.as_bytes())
     }
 }
 
-/// Quotes a field that needs it (RFC 4180 §2.5–2.7).
-fn quote(field: String, separator: &str) -> String {
-    if field.contains(separator) || field.contains(['"', '\n', '\r']) {
-        format!("\"{}\"", field.replace('"', "\"\""))
-    } else {
-        field
-    }
+/// Whether a field would otherwise be taken for several (RFC 4180 §2.5–2.7).
+fn needs_quotes(field: &str, separator: char) -> bool {
+    field.contains([separator, '"', '\n', '\r'])
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! VTK XML unstructured grids (`.vtu`), as ParaView and meshio read them.
 
-use super::number::shortest;
+use super::number::{push_integer, push_shortest};
 use super::svg::escape;
 use std::fmt::Write;
 
@@ -86,16 +86,26 @@ fn floats(text: &mut String, field: &Field<'_>) {
         escape(name)
     );
     for entry in values.chunks((*components).max(1)) {
-        let numbers: Vec<String> = entry.iter().map(|&v| shortest(v).unwrap_or_else(|| "0".into())).collect();
-        let _ = writeln!(text, "{}", numbers.join(" "));
+        for (place, &value) in entry.iter().enumerate() {
+            if place > 0 {
+                text.push(' ');
+            }
+            push_shortest(text, if value.is_finite() { value } else { 0.0 });
+        }
+        text.push('\n');
     }
     text.push_str("</DataArray>\n");
 }
 
 fn integers(text: &mut String, kind: &str, name: &str, values: impl Iterator<Item = usize>) {
     let _ = writeln!(text, "<DataArray type=\"{kind}\" Name=\"{name}\" format=\"ascii\">");
-    let numbers: Vec<String> = values.map(|v| v.to_string()).collect();
-    let _ = writeln!(text, "{}\n</DataArray>", numbers.join(" "));
+    for (place, value) in values.enumerate() {
+        if place > 0 {
+            text.push(' ');
+        }
+        push_integer(text, value);
+    }
+    text.push_str("\n</DataArray>\n");
 }
 
 #[cfg(test)]

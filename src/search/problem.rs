@@ -133,12 +133,41 @@ fn finite_only(metrics: Vec<Option<f64>>) -> Vec<Option<f64>> {
 
 /// Rounds to 10 significant decimal digits, so that last bits, which differ between CPUs, decide nothing.
 ///
-/// Goes through the decimal representation, which is exact and the same everywhere.
+/// What the decimal representation, which is exact and the same everywhere, rounds to; the way there is shorter for
+/// almost all numbers.
 pub fn round_significant(x: f64) -> f64 {
     if !x.is_finite() || x == 0.0 {
         return if x == 0.0 { 0.0 } else { x };
     }
-    format!("{x:.9e}").parse().unwrap_or(x)
+    rounded_by_scaling(x).unwrap_or_else(|| format!("{x:.9e}").parse().unwrap_or(x))
+}
+
+/// Powers of ten that a double holds exactly.
+const POWERS: [f64; 23] = [
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18,
+    1e19, 1e20, 1e21, 1e22,
+];
+
+/// The ten digits as a whole number, scaled there and back by an exact power of ten, so that either way is rounded
+/// once: the way there errs by less than 1e-6, the way back gives the double nearest to the decimal. `None` where no
+/// such power does, or so near the middle of two decimals that the error could decide.
+fn rounded_by_scaling(x: f64) -> Option<f64> {
+    let magnitude = x.abs();
+    // Of the power that gives ten digits: 1e9 ≤ magnitude · 10^place < 1e10.
+    let place: i32 = if magnitude < 1e10 {
+        (0..=22).find(|&place| magnitude * POWERS[place as usize] >= 1e9)?
+    } else {
+        -(1..=22).find(|&place| magnitude / POWERS[place as usize] < 1e10)?
+    };
+    let power = POWERS[place.unsigned_abs() as usize];
+    let scaled = if place >= 0 { magnitude * power } else { magnitude / power };
+    let whole = scaled.floor();
+    let rest = scaled - whole;
+    if (rest - 0.5).abs() < 1e-5 {
+        return None;
+    }
+    let digits = if rest > 0.5 { whole + 1.0 } else { whole };
+    Some((if place >= 0 { digits / power } else { digits * power }).copysign(x))
 }
 
 #[cfg(test)]
@@ -152,6 +181,23 @@ mod tests {
         assert_eq!(round_significant(123_456_789_012.0), 123_456_789_000.0);
         assert_eq!(round_significant(-0.0).to_bits(), 0.0f64.to_bits());
         assert!(round_significant(f64::NAN).is_nan());
+    }
+
+    #[test]
+    fn scaling_rounds_as_the_decimal_representation_does() {
+        let decimal = |x: f64| format!("{x:.9e}").parse::<f64>().unwrap();
+        let mut rng = crate::random::stream(1, 0, 0);
+        let random = (0..200_000).map(|_| f64::from_bits(rand::Rng::next_u64(&mut rng)));
+        // Halves of the eleventh digit, the middles, and their neighbours; powers of ten and theirs.
+        let middles = (0..1000u32).map(|k| f64::from(k).mul_add(1e6, 1e9) + 0.5);
+        let near = (-40..40).flat_map(|e| middles.clone().map(move |m| m * 10f64.powi(e)));
+        let powers = (-30..40).map(|e| 10f64.powi(e));
+        let around = near.chain(powers).flat_map(|x| [x.next_down(), x, x.next_up()]);
+        for x in random.chain(around).filter(|x| x.is_finite() && *x != 0.0) {
+            for x in [x, -x] {
+                assert_eq!(round_significant(x).to_bits(), decimal(x).to_bits(), "{x:e}");
+            }
+        }
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::{SkeletonError, initial_mesh};
 use crate::domain::Domain;
 use crate::geometry::params::{InitialMesh as Given, TopologyParams};
-use crate::io::{ReadError, compas, obj};
+use crate::io::{LengthUnit, ReadError, compas, obj};
 use crate::mesh::{BaseMesh, BaseMeshError, InitialMesh, base_json};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -106,7 +106,7 @@ pub fn initial(params: &TopologyParams, domain: &Domain, base_dir: &Path) -> Res
     let mut base = match &params.initial {
         Given::Word(_) => initial_mesh(domain)?,
         Given::Grid { grid } => grid_mesh(*grid, domain)?,
-        Given::File { file } => fit(read(&base_dir.join(file))?, domain)?,
+        Given::File { file, unit } => fit(read(&base_dir.join(file), *unit)?, domain)?,
         Given::Inline { vertices, faces, poles } => fit(inline(vertices, faces, poles)?, domain)?,
     };
     if let Some(marker) = params.marker {
@@ -139,14 +139,15 @@ fn inline(
     })
 }
 
-/// A valid mesh from a file: OBJ by its extension, otherwise JSON, as a base mesh (`vertices`) or by COMPAS (`vertex`).
+/// A valid mesh from a file whose coordinates have the given unit: OBJ by its extension, otherwise JSON, as a base mesh
+/// (`vertices`) or by COMPAS (`vertex`).
 ///
 /// # Errors
 /// A file that cannot be read or whose mesh is not valid, with line or key.
-pub fn read(file: &Path) -> Result<BaseMesh, ReadError> {
+pub fn read(file: &Path, unit: LengthUnit) -> Result<BaseMesh, ReadError> {
     let content = |reason: String| ReadError::Content { file: file.to_owned(), reason };
     if file.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj")) {
-        let obj = obj::read(file)?;
+        let obj = obj::read(file, unit)?;
         let base = BaseMesh { vertices: obj.vertices, faces: obj.faces, ..BaseMesh::default() };
         InitialMesh::from_base(&base).map_err(|error| {
             let at_face = error.face().and_then(|face| obj.face_lines.get(face));
@@ -167,7 +168,7 @@ pub fn read(file: &Path) -> Result<BaseMesh, ReadError> {
         return Ok(base);
     }
     let text = String::from_utf8(crate::io::read_bytes(file)?).map_err(|e| content(e.to_string()))?;
-    let (base, counted) = match serde_json::from_str::<serde_json::Value>(&text) {
+    let (mut base, counted) = match serde_json::from_str::<serde_json::Value>(&text) {
         Ok(value) if value.get("vertices").is_none() => {
             (compas::from_value(&value).map_err(content)?, " (counted from 0 in the order of the keys)")
         }
@@ -179,6 +180,7 @@ pub fn read(file: &Path) -> Result<BaseMesh, ReadError> {
         }
         error => content(format!("{error}{counted}")),
     })?;
+    base.vertices.iter_mut().for_each(|position| *position = position.map(|c| unit.metres(c)));
     Ok(base)
 }
 

@@ -5,13 +5,18 @@ use crate::structure::params::Direction;
 
 /// A surface this much larger than the domain is more likely in another unit.
 const VAST: f64 = 20.0;
+/// Beyond this a domain is more likely given in millimetres.
+const KILOMETRE: f64 = 1000.0;
 /// A shortest member over this share of the panels' mean side is kept by hardly any pattern: singularities draw members together.
 const LONG: f64 = 0.6;
 
 impl Study {
     /// Things that are allowed but seldom meant, in words.
     pub fn warnings(&self) -> Vec<String> {
-        [self.free_directions(), self.vast_surface(), self.long_members()].into_iter().flatten().collect()
+        [self.free_directions(), self.vast_domain(), self.vast_surface(), self.long_members()]
+            .into_iter()
+            .flatten()
+            .collect()
     }
 
     /// Directions that no support holds.
@@ -26,13 +31,25 @@ impl Study {
         })
     }
 
+    /// Millimetres taken for metres.
+    fn vast_domain(&self) -> Option<String> {
+        let [low, high] = self.domain.bounds();
+        let [width, depth] = [0, 1].map(|axis| high[axis] - low[axis]);
+        (width.max(depth) > KILOMETRE).then(|| {
+            format!(
+                "domain.loop: {width:.0} m × {depth:.0} m: are these millimetres? Lengths are in metres; say unit = \"mm\" beside \
+                 the file of an OBJ loop (and of surface and initial mesh), divide numbers written in the config by 1000"
+            )
+        })
+    }
+
     fn vast_surface(&self) -> Option<String> {
         let [low, high] = self.surface.bounds()?;
         let (surface, domain) = ((high[0] - low[0]).hypot(high[1] - low[1]), self.domain.size());
         (surface > VAST * domain).then(|| {
             format!(
-                "surface.file: the mesh is {surface:.0} m across, the domain {domain:.6} m: files are read in metres; is this \
-                 one in another unit?"
+                "surface.file: the mesh is {surface:.0} m across, the domain {domain:.6} m: is its file in \
+                 another unit? (surface.unit = \"mm\", \"cm\", \"ft\" or \"in\" has it turned into metres)"
             )
         })
     }

@@ -3,8 +3,8 @@
 use super::error::SurfaceError;
 use super::tree::TriangleTree;
 use super::{Surface, SurfaceKind};
-use crate::io::ReadError;
 use crate::io::obj::{self, ObjFile};
+use crate::io::{LengthUnit, ReadError};
 use std::path::Path;
 
 /// A mesh as a surface. Quads are cut along their shorter diagonal; vertices may be unwelded.
@@ -19,12 +19,12 @@ pub struct MeshSurface {
 }
 
 impl MeshSurface {
-    /// Reads an OBJ file.
+    /// Reads an OBJ file whose coordinates have the given unit.
     ///
     /// # Errors
     /// A file that cannot be read, with the line at fault; a file without faces.
-    pub fn read(file: &Path) -> Result<Self, SurfaceError> {
-        let obj = obj::read(file)?;
+    pub fn read(file: &Path, unit: LengthUnit) -> Result<Self, SurfaceError> {
+        let obj = obj::read(file, unit)?;
         check_faces(&obj, file)?;
         Self::new(&obj.vertices, &obj.faces).ok_or_else(|| SurfaceError::NoFaces { file: file.to_owned() })
     }

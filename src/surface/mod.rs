@@ -115,7 +115,7 @@ pub fn build(params: &SurfaceParams, base_dir: &Path) -> Result<Arc<dyn Surface>
         SurfaceParams::Cylinder { center_m, axis_deg, radius_m } => {
             Arc::new(cylinder::Cylinder::new(*center_m, *axis_deg, *radius_m)?)
         }
-        SurfaceParams::Mesh { file } => Arc::new(MeshSurface::read(&base_dir.join(file))?),
+        SurfaceParams::Mesh { file, unit } => Arc::new(MeshSurface::read(&base_dir.join(file), *unit)?),
         SurfaceParams::Free {} => Arc::new(free::Free),
     })
 }

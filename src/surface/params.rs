@@ -1,5 +1,6 @@
 //! The `[surface]` table of the config.
 
+use crate::io::LengthUnit;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -79,6 +80,9 @@ pub enum SurfaceParams {
     Mesh {
         /// The file, relative to the config.
         file: PathBuf,
+        /// Unit of the file's coordinates: `m` (the default), `cm`, `mm`, `ft` or `in`.
+        #[serde(default, skip_serializing_if = "LengthUnit::is_metre")]
+        unit: LengthUnit,
     },
     /// No surface: the relaxation finds the form (cable net).
     Free {},

@@ -53,6 +53,7 @@ pub fn grid_shell([m, n]: [u32; 2], [width, depth]: [f64; 2], z: impl Fn(f64, f6
         panels,
         edges,
         loops: vec![outer],
+        along: Vec::new(),
         loop_corners: std::iter::once(0..4).collect(),
         corners,
     }
@@ -125,6 +126,7 @@ pub fn court(around: u32, across: u32) -> Pattern {
             (0..around).map(|i| vertex(i, across)).collect(),
             (0..around).map(|i| vertex(i, 0)).collect(),
         ],
+        along: Vec::new(),
         loop_corners: vec![0..4, 4..4],
         corners,
     }

@@ -200,6 +200,24 @@ await check("prints", async () => {
 await check("no error on the console, no request, all along", async () => assert.deepEqual(problems, []));
 await page.context().close();
 
+await check("without a feasible design the page says what stood in the way and draws the nearest misses", async () => {
+  const { page: missed, problems: wrong } = await open(browser, `${folder}/missed.html`);
+  assert.equal(await missed.locator("#front").isHidden(), true);
+  assert.equal(await missed.locator("#obstacles tbody tr").count(), 4);
+  // The initial mesh, and six others.
+  assert.equal(await missed.locator("#misses tbody tr").count(), 7);
+  assert.equal(await missed.locator("#misses canvas.thumb").count(), 7);
+  const before = await picture(missed);
+  await missed.locator("#misses tbody tr").nth(3).locator("button.bare").click();
+  assert.notEqual(await picture(missed), before);
+  assert.match(await text(missed, "#picked-values"), /Not feasible: min_edge_m/);
+  assert.equal(await missed.locator("#misses tr.picked").count(), 1);
+  await missed.click("#next");
+  if (shots) await missed.screenshot({ path: `${shots}/missed.png`, fullPage: true });
+  assert.deepEqual(wrong, []);
+  await missed.context().close();
+});
+
 for (const name of ["small", "bare", "empty"]) {
   await check(`${name}.html opens without error`, async () => {
     const { page: other, problems: wrong } = await open(browser, `${folder}/${name}.html`);

@@ -2,7 +2,8 @@
 //! Its numbers mean nothing; its shapes, counts and oddities (missing values, awkward characters) are those of a real one.
 
 use quadrille::output::report::{
-    Design, Generation, Mark, Mesh, Metric, ReportData, Run, Sample, Singular, Singularities, Spread,
+    Design, Generation, Mark, Mesh, Metric, Obstacle, ReportData, Run, Sample, Singular, Singularities,
+    Spread,
 };
 use quadrille::random::{Rng, stream, unit};
 use std::collections::{BTreeMap, BTreeSet};
@@ -31,6 +32,10 @@ pub fn run(designs: usize, panels: usize) -> ReportData {
         metrics: metrics(),
         objectives: (0..6).collect(),
         baseline: Some(baseline(panels, &mut rng)),
+        obstacles: [("min_edge_m", 412), ("refused by topology", 97), ("max_valence", 37), ("folds", 3)]
+            .map(|(name, designs)| Obstacle { name: name.to_owned(), designs })
+            .to_vec(),
+        misses: Vec::new(),
         front,
         generations: (0..26).map(generation).collect(),
         spread: Spread {
@@ -42,6 +47,24 @@ pub fn run(designs: usize, panels: usize) -> ReportData {
             .map(str::to_owned)
             .to_vec(),
     }
+}
+
+/// A run in which nothing was feasible, with so many nearest misses.
+#[allow(dead_code, reason = "not every test that uses this file needs it")]
+pub fn without_front(misses: usize, panels: usize) -> ReportData {
+    let mut data = run(misses, panels);
+    data.misses = std::mem::take(&mut data.front);
+    for (place, miss) in data.misses.iter_mut().enumerate() {
+        miss.feasible = false;
+        miss.reason =
+            Some(format!("min_edge_m 0.{} (limit 0.5); deflection 0.2{place} (limit 0.14)", 48 - place));
+    }
+    data.run.feasible = 0;
+    data.spread = Spread::default();
+    for generation in &mut data.generations {
+        (generation.feasible, generation.front, generation.hypervolume) = (0, 0, None);
+    }
+    data
 }
 
 fn metrics() -> Vec<Metric> {

@@ -68,7 +68,13 @@ struct Pair {
 }
 
 /// Goes down from `x`; the energy at the end, infinite if that of the start is.
-pub fn descend(net: &Net<'_>, energy: &mut dyn Energy, factor: &Factor, x: &mut Vec<f64>, bounds: Bounds) -> f64 {
+pub fn descend(
+    net: &Net<'_>,
+    energy: &mut dyn Energy,
+    factor: &Factor,
+    x: &mut Vec<f64>,
+    bounds: Bounds,
+) -> f64 {
     let n = x.len();
     let inner = |a: &[f64], b: &[f64]| inner(net, a, b);
     let mut gradient = vec![0.0; n];
@@ -116,7 +122,10 @@ pub fn descend(net: &Net<'_>, energy: &mut dyn Energy, factor: &Factor, x: &mut 
             continue;
         };
         let next_solved = solve(factor, &next_gradient);
-        remember(&mut pairs, Pair::of([x, &next], [&gradient, &next_gradient], [&solved, &next_solved], inner));
+        remember(
+            &mut pairs,
+            Pair::of([x, &next], [&gradient, &next_gradient], [&solved, &next_solved], inner),
+        );
         std::mem::swap(x, &mut next);
         std::mem::swap(&mut gradient, &mut next_gradient);
         solved = next_solved;

@@ -64,7 +64,12 @@ impl Terms {
         let counts = |v: u32| !net.is_silent[v as usize];
         let is_triangle = |quad: &&[u32; 4]| quad[2] == quad[3];
         let quads: Vec<[u32; 4]> = net.sheet.quads.iter().filter(|q| !is_triangle(q)).copied().collect();
-        let corners = net.sheet.quads.iter().filter(is_triangle).flat_map(|&[a, b, c, _]| [[a, b, c], [b, c, a], [c, a, b]]);
+        let corners = net
+            .sheet
+            .quads
+            .iter()
+            .filter(is_triangle)
+            .flat_map(|&[a, b, c, _]| [[a, b, c], [b, c, a], [c, a, b]]);
         Self {
             counts: quads.iter().map(|quad| quad.map(|v| f64::from(u8::from(counts(v))))).collect(),
             quads,
@@ -258,7 +263,12 @@ fn triangle_corner<const P: u32>(
 
 /// w_L (x + 1/x − 2) + (l / l_max)^p + (l_min / l)^p, x = (l/ℓ)², of up to [`LANES`] edges.
 #[inline(always)]
-fn edge_batch<const P: u32>(edges: &[[u32; 2]], points: &[Vec3], weights: &Weights, by_point: &mut [Vec3]) -> f64 {
+fn edge_batch<const P: u32>(
+    edges: &[[u32; 2]],
+    points: &[Vec3],
+    weights: &Weights,
+    by_point: &mut [Vec3],
+) -> f64 {
     let edge = |l: usize| edges.get(l).unwrap_or(&edges[0]);
     let mut d = [[0.0; LANES]; 3];
     for l in 0..LANES {
@@ -279,7 +289,8 @@ fn edge_batch<const P: u32>(edges: &[[u32; 2]], points: &[Vec3], weights: &Weigh
         let short = power(least * inverse, P);
         energy[l] = weights.length * (square[l] * to_rest + rest * inverse - 2.0) + (long + short);
         by_square[l] = 2.0
-            * (weights.length * (to_rest - rest * inverse * inverse) + f64::from(P) * (long - short) * inverse);
+            * (weights.length * (to_rest - rest * inverse * inverse)
+                + f64::from(P) * (long - short) * inverse);
     }
     for (l, &[u, v]) in edges.iter().enumerate() {
         for c in 0..3 {

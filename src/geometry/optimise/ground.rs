@@ -94,7 +94,8 @@ impl<'a> Ground<'a> {
     /// The boundary point nearest to a point in plan, and whether the point is so near that it gives no direction.
     pub fn nearest_boundary(&self, point: Vec3) -> Vec3 {
         let given = self.global(point);
-        let plan_distance = |p: &Vec3| (p[0] - given[0]) * (p[0] - given[0]) + (p[1] - given[1]) * (p[1] - given[1]);
+        let plan_distance =
+            |p: &Vec3| (p[0] - given[0]) * (p[0] - given[0]) + (p[1] - given[1]) * (p[1] - given[1]);
         let nearest = self
             .domain
             .loops

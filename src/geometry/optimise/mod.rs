@@ -23,7 +23,7 @@ use super::coarse::Coarse;
 use super::corners::LoopCorners;
 use super::dense::panel_count;
 use super::density::{self, Fineness};
-use super::limits::{self, Limits};
+use super::limits::{self, Extremes, Limits};
 use super::pattern::Pattern;
 use super::rejection::Rejection;
 use super::sparse::Factor;
@@ -174,8 +174,14 @@ impl<'a> Optimiser<'a> {
     pub fn coarse_rows(&self, sheet: &Sheet) -> Vec<u32> {
         let rungs = rows::rungs(self.task.coarse, sheet);
         let lengths: Vec<f64> = rungs.iter().map(Rungs::mean).collect();
-        let bounds =
-            rows::bounds(self.task.coarse, self.ground, sheet, self.task.limits, &self.caps, COARSENESS.sqrt());
+        let bounds = rows::bounds(
+            self.task.coarse,
+            self.ground,
+            sheet,
+            self.task.limits,
+            &self.caps,
+            COARSENESS.sqrt(),
+        );
         density::choose(self.task.coarse, &lengths, Fineness::Panels(self.task.panels / COARSENESS), &bounds)
     }
 
@@ -183,7 +189,8 @@ impl<'a> Optimiser<'a> {
     fn rows(&self, sheet: &Sheet, length: fn(&Rungs) -> f64, at_least: Option<&[u32]>) -> Vec<u32> {
         let rungs = rows::rungs(self.task.coarse, sheet);
         let lengths: Vec<f64> = rungs.iter().map(length).collect();
-        let mut bounds = rows::bounds(self.task.coarse, self.ground, sheet, self.task.limits, &self.caps, 1.0);
+        let mut bounds =
+            rows::bounds(self.task.coarse, self.ground, sheet, self.task.limits, &self.caps, 1.0);
         if let Some(at_least) = at_least {
             bounds.least.iter_mut().zip(at_least).for_each(|(least, more)| *least = (*least).max(*more));
         }
@@ -287,7 +294,9 @@ impl<'a> Optimiser<'a> {
 
     fn keeps_limits(&self, pattern: &Pattern) -> bool {
         check::check(pattern, self.task.domain, self.task.surface).is_ok()
-            && limits::excesses(pattern, self.task.limits).iter().all(|limit| limit.excess <= 0.0)
+            && limits::excesses(&Extremes::of(pattern, self.task.domain), self.task.limits)
+                .iter()
+                .all(|limit| limit.excess <= 0.0)
     }
 
     fn pattern(&self, sheet: &Sheet, (points, along): &(Vec<Vec3>, Vec<Vec<f64>>)) -> Pattern {

@@ -324,7 +324,8 @@ impl<'a> Net<'a> {
     pub fn state(&self, mut x: Vec<f64>) -> (Vec<Vec3>, Vec<Vec<f64>>) {
         let mut places = self.places();
         self.place(&mut x, &mut places);
-        let along = self.sheet.loops.iter().map(|held| held.vertices.iter().map(|&v| self.station(&x, v)).collect());
+        let along =
+            self.sheet.loops.iter().map(|held| held.vertices.iter().map(|&v| self.station(&x, v)).collect());
         (places.points, along.collect())
     }
 }

@@ -13,7 +13,8 @@ const INWARD: f64 = 0.02;
 /// the old ones' arc lengths, corners kept; all put back on surface and curves, and into the domain.
 pub fn resample(coarse: &Coarse<'_>, ground: &Ground<'_>, old: &Sheet, parts: &[u32]) -> Sheet {
     let dense = densify(coarse, parts);
-    let loops: Vec<Held> = (0..old.loops.len()).map(|label| resample_loop(coarse, old, &dense, label)).collect();
+    let loops: Vec<Held> =
+        (0..old.loops.len()).map(|label| resample_loop(coarse, old, &dense, label)).collect();
     let mut points = vec![[0.0; 3]; dense.vertex_count];
     points[..coarse.mesh.vertex_count].copy_from_slice(&old.points[..coarse.mesh.vertex_count]);
     for (path, before) in dense.edge_paths.iter().zip(&old.dense.edge_paths) {
@@ -108,7 +109,8 @@ fn resample_loop(coarse: &Coarse<'_>, old: &Sheet, dense: &Dense, label: usize) 
     let mut corner = Vec::with_capacity(vertices.len());
     for (edge, old_edge) in stations.windows(2).zip(old_stations.windows(2)) {
         let (parts, old_parts) = (edge[1] - edge[0], old_edge[1] - old_edge[0]);
-        let inside: Vec<usize> = (1..old_parts).filter(|i| before.corner[old_edge[0] + i] != NO_CORNER).collect();
+        let inside: Vec<usize> =
+            (1..old_parts).filter(|i| before.corner[old_edge[0] + i] != NO_CORNER).collect();
         let span = [along_at(old_edge[0]), along_at(old_edge[1])];
         let shares: Vec<f64> =
             inside.iter().map(|i| (along_at(old_edge[0] + i) - span[0]) / (span[1] - span[0])).collect();
@@ -119,14 +121,18 @@ fn resample_loop(coarse: &Coarse<'_>, old: &Sheet, dense: &Dense, label: usize) 
             let taken = moved.iter().position(|&row| row == i);
             // Between the corners' rows before and after.
             let k = moved.iter().filter(|&&row| row <= i).count();
-            let [from, to] = [k.checked_sub(1).map_or(0, |k| moved[k]), moved.get(k).copied().unwrap_or(parts)];
+            let [from, to] =
+                [k.checked_sub(1).map_or(0, |k| moved[k]), moved.get(k).copied().unwrap_or(parts)];
             let [old_from, old_to] =
                 [k.checked_sub(1).map_or(0, |k| inside[k]), inside.get(k).copied().unwrap_or(old_parts)];
-            let place =
-                old_from as f64 + (i - from) as f64 / (to - from) as f64 * (old_to - old_from) as f64;
+            let place = old_from as f64 + (i - from) as f64 / (to - from) as f64 * (old_to - old_from) as f64;
             let at = Share::at(place, old_parts);
             let (a, b) = (along_at(old_edge[0] + at.index), along_at(old_edge[0] + at.index + 1));
-            along.push(if taken.is_some() { along_at(old_edge[0] + old_from) } else { a + at.share * (b - a) });
+            along.push(if taken.is_some() {
+                along_at(old_edge[0] + old_from)
+            } else {
+                a + at.share * (b - a)
+            });
             corner.push(taken.map_or(NO_CORNER, |k| before.corner[old_edge[0] + inside[k]]));
         }
     }

@@ -83,7 +83,8 @@ pub fn caps(task: &Task<'_>) -> Vec<u32> {
         let others = coarse.vertex_faces[v] as usize - strips.len();
         let by_angle = available.angle(v as u32) / (POLE_RESERVE * limits.min_angle);
         let room = (limits.max_valence.saturating_sub(on_boundary) as f64).min((by_angle + 1e-9).floor());
-        let cap = ((room - others as f64) / strips.len() as f64).floor().clamp(1.0, f64::from(u32::MAX)) as u32;
+        let cap =
+            ((room - others as f64) / strips.len() as f64).floor().clamp(1.0, f64::from(u32::MAX)) as u32;
         for &s in strips {
             caps[s as usize] = caps[s as usize].min(cap);
         }

@@ -46,13 +46,7 @@ pub struct Held {
 impl Held {
     /// From the loop as placing has it, whose first vertex is an anchor, in the order of `vertices`; `stations` in local units,
     /// `first_corner` the number of the loop's first corner.
-    fn of(
-        vertices: &[u32],
-        placed: &BoundaryLoop,
-        stations: &[f64],
-        length: f64,
-        first_corner: u32,
-    ) -> Self {
+    fn of(vertices: &[u32], placed: &BoundaryLoop, stations: &[f64], length: f64, first_corner: u32) -> Self {
         let n = vertices.len();
         let start = vertices.iter().position(|v| Some(v) == placed.vertices.first()).unwrap_or(0);
         // Vertex `i` of ours is vertex `i + n − start` of theirs; before that their stations are one turn too far.
@@ -60,7 +54,9 @@ impl Held {
         let along = (0..n).map(|i| stations[theirs(i)] - if i < start { length } else { 0.0 }).collect();
         let corner = vertices
             .iter()
-            .map(|v| placed.corners.iter().position(|c| c == v).map_or(NO_CORNER, |k| first_corner + k as u32))
+            .map(|v| {
+                placed.corners.iter().position(|c| c == v).map_or(NO_CORNER, |k| first_corner + k as u32)
+            })
             .collect();
         Self { vertices: vertices.to_vec(), along, corner, is_sharp: placed.is_sharp }
     }
@@ -154,7 +150,12 @@ impl Sheet {
                     is_curved = !side[0].is_finite() || !rail.is_straight(side[0], side[1]);
                 }
                 let offset = if i + 1 == n { rail.length } else { 0.0 };
-                links.push(Link { from: held.vertices[i], to: held.vertices[(i + 1) % n], offset, is_curved });
+                links.push(Link {
+                    from: held.vertices[i],
+                    to: held.vertices[(i + 1) % n],
+                    offset,
+                    is_curved,
+                });
             }
         }
         links
@@ -223,7 +224,13 @@ impl Sheet {
     }
 
     /// The pattern in metres, corners exactly on those of the domain. Its loops begin at their first corner.
-    pub fn pattern(&self, task: &Task<'_>, ground: &Ground<'_>, points: &[Vec3], along: &[Vec<f64>]) -> Pattern {
+    pub fn pattern(
+        &self,
+        task: &Task<'_>,
+        ground: &Ground<'_>,
+        points: &[Vec3],
+        along: &[Vec<f64>],
+    ) -> Pattern {
         let mut positions: Vec<Vec3> = points.iter().map(|&p| ground.global(p)).collect();
         let mut corners = Vec::new();
         let mut loop_corners = Vec::new();
@@ -235,7 +242,9 @@ impl Sheet {
             let taken: Vec<(usize, u32)> = numbering
                 .numbers
                 .clone()
-                .filter_map(|k| held.corner.iter().position(|&c| c as usize == k).map(|i| (i, held.vertices[i])))
+                .filter_map(|k| {
+                    held.corner.iter().position(|&c| c as usize == k).map(|i| (i, held.vertices[i]))
+                })
                 .collect();
             for (&(_, v), &s) in taken.iter().zip(&numbering.at) {
                 positions[v as usize] = curve.point(s);

@@ -16,13 +16,17 @@ pub struct ReportData {
     pub front: Vec<Design>,
     /// The design of the empty string: the initial mesh.
     pub baseline: Option<Design>,
+    /// What kept designs from being feasible, the most frequent first.
+    pub obstacles: Vec<Obstacle>,
+    /// Where there is no front: the designs that came nearest to being feasible, the nearest first.
+    pub misses: Vec<Design>,
     /// One row per generation, in order.
     pub generations: Vec<Generation>,
     /// Objective values of the population at both ends of the run.
     pub spread: Spread,
     /// The config as resolved, TOML.
     pub config_toml: String,
-    /// Endings of the files that every design of the front has in `designs/`, such as `.obj`; linked from the page.
+    /// Endings of the files that every design of the front, or every nearest miss, has in `designs/`, such as `.obj`; linked from the page.
     pub design_files: Vec<String>,
 }
 
@@ -41,6 +45,15 @@ pub struct Run {
     pub feasible: u64,
     /// Children refused because they are as good as known.
     pub duplicates_refused: u64,
+}
+
+/// A limit, a requirement or another failure, and what it cost.
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+pub struct Obstacle {
+    /// Key of the config or metric, such as `min_edge_m`; words for a failure, such as `folds`.
+    pub name: String,
+    /// Designs that it kept from being feasible; a design may count under several.
+    pub designs: u64,
 }
 
 /// One column of numbers: what it is called, its unit and what it means.

@@ -13,7 +13,8 @@ mod shape;
 
 pub use choose::worth_a_mesh;
 pub use data::{
-    Design, Generation, Mark, Mesh, Metric, ReportData, Run, Sample, Singular, Singularities, Spread,
+    Design, Generation, Mark, Mesh, Metric, Obstacle, ReportData, Run, Sample, Singular, Singularities,
+    Spread,
 };
 pub use read::read;
 
@@ -65,7 +66,7 @@ fn check(data: &ReportData) -> Result<(), ReportError> {
     if let Some(&index) = data.objectives.iter().find(|&&i| i >= expected) {
         return Err(ReportError::Objective { index, metrics: expected });
     }
-    match data.front.iter().chain(&data.baseline).find(|d| d.values.len() != expected) {
+    match data.front.iter().chain(&data.misses).chain(&data.baseline).find(|d| d.values.len() != expected) {
         Some(d) => Err(ReportError::Values { id: d.id.clone(), found: d.values.len(), expected }),
         None => Ok(()),
     }

@@ -17,7 +17,7 @@ const LICENCES: [(&str, &str); 2] = [
     ("Observable Plot 0.6.17", include_str!("../../../assets/vendor/plot.LICENSE")),
 ];
 /// In the order in which they need each other. They share one scope.
-const SCRIPTS: [&str; 12] = [
+const SCRIPTS: [&str; 13] = [
     include_str!("../../../assets/report/model.js"),
     include_str!("../../../assets/report/mesh.js"),
     include_str!("../../../assets/report/colours.js"),
@@ -28,6 +28,7 @@ const SCRIPTS: [&str; 12] = [
     include_str!("../../../assets/report/gallery.js"),
     include_str!("../../../assets/report/tables.js"),
     include_str!("../../../assets/report/families.js"),
+    include_str!("../../../assets/report/misses.js"),
     include_str!("../../../assets/report/convergence.js"),
     include_str!("../../../assets/report/main.js"),
 ];
@@ -52,6 +53,8 @@ struct Facts<'a> {
     objectives: &'a [usize],
     front: Vec<Row<'a>>,
     baseline: Option<Row<'a>>,
+    obstacles: &'a [super::Obstacle],
+    misses: Vec<Row<'a>>,
     generations: &'a [super::Generation],
     spread: &'a super::Spread,
     config_toml: &'a str,
@@ -65,13 +68,15 @@ pub(super) fn assemble(data: &ReportData) -> Result<String, ReportError> {
         objectives: &data.objectives,
         front: data.front.iter().map(row).collect(),
         baseline: data.baseline.as_ref().map(row),
+        obstacles: &data.obstacles,
+        misses: data.misses.iter().map(row).collect(),
         generations: &data.generations,
         spread: &data.spread,
         config_toml: &data.config_toml,
         design_files: &data.design_files,
     };
     let mut meshes: BTreeMap<&str, Packed> = BTreeMap::new();
-    for design in data.front.iter().chain(&data.baseline) {
+    for design in data.front.iter().chain(&data.misses).chain(&data.baseline) {
         if let Some(mesh) = &design.mesh {
             meshes.insert(&design.id, pack(&design.id, mesh)?);
         }

@@ -1,13 +1,14 @@
 //! From a results folder to [`ReportData`]: what the files say is what the page shows.
 
 use super::choose::worth_a_mesh;
-use super::data::{Design, Generation, Metric, ReportData, Run, Sample, Spread};
+use super::data::{Design, Generation, Metric, Obstacle, ReportData, Run, Sample, Spread};
 use super::{measure, shape};
 use crate::objectives::{self, METRICS};
 use crate::output::designs;
 use crate::output::folder::DESIGNS;
 use crate::output::load::{LoadError, Loaded, load};
 use crate::output::manifest::Manifest;
+use crate::output::obstacles::{Obstacles, nearest_misses};
 use crate::search::{EvaluatedRow, GenerationRow};
 use std::path::Path;
 
@@ -32,12 +33,25 @@ pub fn read(folder: &Path) -> Result<ReportData, LoadError> {
     // Any string of which nothing is expressed gives the initial mesh.
     let initial = evaluated.iter().find(|row| row.expressed.is_empty());
     let baseline = initial.map(|row| shown.design(row, &shapes)).transpose()?;
+    let misses = nearest_misses(&evaluated);
+    let misses: Vec<Design> =
+        misses.iter().map(|&row| shown.design(&evaluated[row], &shapes)).collect::<Result<_, _>>()?;
     keep_within_budget(&mut rows, shown.objectives);
     Ok(ReportData {
         run: run(&manifest),
         metrics: shown.places.iter().map(|&place| metric(METRICS[place])).collect(),
         objectives: (0..shown.objectives).collect(),
-        design_files: rows.first().map(|design| shape::endings(&shapes, &design.id)).unwrap_or_default(),
+        design_files: rows
+            .first()
+            .or(misses.first())
+            .map(|design| shape::endings(&shapes, &design.id))
+            .unwrap_or_default(),
+        obstacles: Obstacles::of(&evaluated)
+            .counted()
+            .into_iter()
+            .map(|(name, designs)| Obstacle { name, designs })
+            .collect(),
+        misses,
         front: rows,
         baseline,
         generations: generations.iter().map(generation).collect(),

@@ -2,7 +2,7 @@
 
 use super::metrics::{self, Answer, Metrics};
 use super::model::GridshellModel;
-use super::{AnalysisError, BucklingMode, Certificate, Place, RequirementResult, Response};
+use super::{AnalysisError, BucklingMode, Certificate, Place, Proof, RequirementResult, Response};
 use crate::structure::buckling::{self, Mode, Search};
 use crate::structure::forces::{MemberForces, Utilisation};
 use crate::structure::frame::{by_node, silence};
@@ -468,8 +468,11 @@ impl<'a> Evaluator<'a> {
         Ok(response)
     }
 
-    /// Everything about each combination at the current height, and the proved buckling mode.
-    pub fn details(&mut self) -> Result<(Vec<CombinationResult>, Option<BucklingMode>), AnalysisError> {
+    /// Everything about each combination at the current height, and the buckling mode.
+    pub fn details(
+        &mut self,
+        proof: Proof,
+    ) -> Result<(Vec<CombinationResult>, Option<BucklingMode>), AnalysisError> {
         let results = (0..self.states.len())
             .map(|s| {
                 let metrics = self.metrics(s);
@@ -478,11 +481,7 @@ impl<'a> Evaluator<'a> {
             .collect();
         let index = self.combination_of(Quantity::BucklingFactor);
         let Some(mode) = self.mode(index)? else { return Ok((results, None)) };
-        let axial = &self.states[index].first_axial;
-        let certificate = Certificate {
-            none_below: self.solver.factorise_shifted(axial, 0.999 * mode.factor).is_ok(),
-            one_here: self.solver.factorise_shifted(axial, 1.001 * mode.factor).is_err(),
-        };
+        let certificate = (proof == Proof::Certificate).then(|| self.certificate(index, mode.factor));
         let mut shape = by_node(self.solver.system(), &mode.shape, self.model.frame.nodes().len());
         let size = shape.iter().map(|d| Vector3::new(d[0], d[1], d[2]).norm()).fold(0.0, f64::max);
         if size > 0.0 {
@@ -490,6 +489,15 @@ impl<'a> Evaluator<'a> {
         }
         let combination = self.states[index].name.clone();
         Ok((results, Some(BucklingMode { combination, factor: mode.factor, shape, certificate })))
+    }
+
+    /// Whether λ is the first buckling factor of a combination.
+    fn certificate(&mut self, index: usize, factor: f64) -> Certificate {
+        let axial = &self.states[index].first_axial;
+        Certificate {
+            none_below: self.solver.factorise_shifted(axial, 0.999 * factor).is_ok(),
+            one_here: self.solver.factorise_shifted(axial, 1.001 * factor).is_err(),
+        }
     }
 
     fn detail(&self, index: usize, metrics: Metrics) -> CombinationResult {

@@ -205,8 +205,17 @@ pub struct BucklingMode {
     pub factor: f64,
     /// ux … rz of each node, scaled to a largest displacement of 1.
     pub shape: Vec<[f64; 6]>,
-    /// Proof of λ.
-    pub certificate: Certificate,
+    /// Proof of λ, where it was asked for.
+    pub certificate: Option<Certificate>,
+}
+
+/// Whether the buckling factor is proved, at the price of two factorisations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Proof {
+    /// For what a search ends with.
+    Certificate,
+    /// For tables and pictures of designs to look at.
+    None,
 }
 
 /// All that the exporters need beside the [`Response`].
@@ -237,20 +246,26 @@ pub fn analyse(pattern: &Pattern, params: &StructureParams) -> Result<Response, 
     evaluator.response(height)
 }
 
-/// Analyses a pattern like [`analyse`] and gives displacements, forces, reactions, and the buckling mode with its
-/// proof as well.
+/// Analyses a pattern like [`analyse`] and gives displacements, forces, reactions, and the buckling mode, proved or
+/// not, as well.
 ///
 /// # Errors
 /// See [`AnalysisError`].
-pub fn analyse_detailed(pattern: &Pattern, params: &StructureParams) -> Result<Detailed, AnalysisError> {
+pub fn analyse_detailed(
+    pattern: &Pattern,
+    params: &StructureParams,
+    proof: Proof,
+) -> Result<Detailed, AnalysisError> {
     refuse_invalid(params)?;
     let model = GridshellModel::new(pattern, params, largest_height(params))?;
     let mut evaluator = Evaluator::new(&model, params)?;
     let height = sizing::height(&mut evaluator, params)?;
     let response = evaluator.response(height)?;
-    let (combinations, mode) = evaluator.details()?;
+    let (combinations, mode) = evaluator.details(proof)?;
     drop(evaluator);
-    Ok(Detailed { response, combinations, mode, model: GridshellModel::new(pattern, params, height)? })
+    let model =
+        if height == largest_height(params) { model } else { GridshellModel::new(pattern, params, height)? };
+    Ok(Detailed { response, combinations, mode, model })
 }
 
 fn largest_height(params: &StructureParams) -> f64 {

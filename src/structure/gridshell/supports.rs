@@ -114,6 +114,7 @@ mod tests {
             panels: vec![Panel::quad([0, 1, 4, 3]), Panel::quad([1, 2, 5, 4])],
             edges: vec![[0, 1], [0, 3], [1, 2], [1, 4], [2, 5], [3, 4], [4, 5]],
             loops: vec![vec![0, 1, 2, 5, 4, 3]],
+            along: Vec::new(),
             loop_corners: std::iter::once(0..corners.len()).collect(),
             corners,
             coarse: Vec::new(),
