@@ -4,9 +4,10 @@
 
 use quadrille::domain::{Domain, DomainParams};
 use quadrille::geometry::PatternParams;
-use quadrille::surface::{self, SurfaceParams};
+use quadrille::surface::{self, MeshSurface, Surface, SurfaceParams};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::Path;
+use std::sync::Arc;
 
 fn resolve(domain: &str, surface: &str) -> Domain {
     let params: DomainParams = toml::from_str(domain).unwrap();
@@ -68,6 +69,41 @@ fn closed_forms() {
     let slope = "kind = 'height'\nexpression = '0.75 * x'";
     let ell = resolve(&(polygon(&L) + &circle([6.0, 7.0], 2.5)), slope);
     assert!(off(ell.surface_area(), 1.25 * ell.area()) < 1e-14);
+}
+
+/// A bowl of 40 × 40 quads, each cut in two: over all of it the sum of its triangles; the same with the domain turned on it.
+#[test]
+fn a_mesh_has_the_area_of_its_triangles() {
+    let at = |i: u32, j: u32| {
+        let (x, y) = (f64::from(i) * 0.5 - 10.0, f64::from(j) * 0.5 - 10.0);
+        [x, y, 5.0 - 0.03 * (x * x + y * y)]
+    };
+    let vertices: Vec<[f64; 3]> = (0..=40).flat_map(|j| (0..=40).map(move |i| at(i, j))).collect();
+    let faces: Vec<Vec<u32>> = (0..40)
+        .flat_map(|j| (0..40).map(move |i| 41 * j + i))
+        .flat_map(|a| [vec![a, a + 1, a + 42], vec![a, a + 42, a + 41]])
+        .collect();
+    let area = |face: &Vec<u32>| {
+        let [a, b, c] = [0, 1, 2].map(|k| vertices[face[k] as usize]);
+        let (u, v) = ([b[0] - a[0], b[1] - a[1], b[2] - a[2]], [c[0] - a[0], c[1] - a[1], c[2] - a[2]]);
+        let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+        0.5 * n.iter().map(|x| x * x).sum::<f64>().sqrt()
+    };
+    let exact: f64 = faces.iter().map(area).sum();
+    let surface: Arc<dyn Surface> = Arc::new(MeshSurface::new(&vertices, &faces).unwrap());
+    let on_mesh = |points: &[[f64; 2]]| {
+        let params: DomainParams = toml::from_str(&polygon(points)).unwrap();
+        Domain::resolve(&params, &surface, Path::new(".")).unwrap().surface_area()
+    };
+    let square = |side: f64| [[-side, -side], [side, -side], [side, side], [-side, side]];
+    assert!(off(on_mesh(&square(10.0)), exact) < 1e-3, "{} {exact}", on_mesh(&square(10.0)));
+    let straight = on_mesh(&square(6.0));
+    for degrees in [15.0f64, 45.0, 70.0] {
+        let (s, c) = degrees.to_radians().sin_cos();
+        // A bowl of revolution: only its facets lie differently.
+        let other = on_mesh(&square(6.0).map(|[x, y]| [c * x - s * y, s * x + c * y]));
+        assert!(off(other, straight) < 1e-3, "{degrees}: {other} {straight}");
+    }
 }
 
 /// The number is that of a grid of 15,544 × 11,720 points, 6 mm apart, in a program of its own; the grid here is the coarser

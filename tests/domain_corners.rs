@@ -143,3 +143,15 @@ fn gaps_of_chords() {
     assert!((walls.gap(3.0, 5.0) - 0.5f64.sqrt()).abs() < 1e-12);
     assert!((walls.gap(15.0, 17.0) - 0.5f64.sqrt()).abs() < 1e-12);
 }
+
+/// The skeleton sees a corner only where a sample is.
+#[test]
+fn a_corner_between_two_points_is_sampled() {
+    let filleted = resolve(&outline(&ell(0.001)), Grain::Panels(300));
+    let curve = &filleted.loops[0];
+    for spacing in [0.3, 5.0] {
+        let samples = curve.sample(spacing);
+        assert!(samples.windows(2).all(|pair| pair[0] < pair[1]));
+        assert!(curve.corners().iter().all(|corner| samples.contains(corner)));
+    }
+}

@@ -36,7 +36,7 @@ fn pattern(positions: Vec<[f64; 3]>, quads: &[[u32; 4]], outline: Vec<u32>) -> P
         loops: vec![outline],
         along: Vec::new(),
         corners: Vec::new(),
-        loop_corners: vec![0..0],
+        loop_corners: std::iter::once(0..0).collect(),
         target_length: 1.0,
     }
 }

@@ -293,8 +293,8 @@ impl BoundaryLoop {
         self.arc_length(self.curve.closest_near(point, self.parameter(s)))
     }
 
-    /// Arc lengths of points along the loop, ascending from its start: all points of a polyline, and between them so many that
-    /// the plan distance from one to the next is at most `spacing`.
+    /// Arc lengths of points along the loop, ascending from its start: all points of a polyline, all corners (that of a fillet may
+    /// lie between two points), and between them so many that the plan distance from one to the next is at most `spacing`.
     pub fn sample(&self, spacing: f64) -> Vec<f64> {
         const CHORDS: usize = 8;
         let mut samples = Vec::new();
@@ -306,6 +306,9 @@ impl BoundaryLoop {
             let count = (1.01 * length / spacing).ceil().max(1.0) as usize;
             samples.extend((0..count).map(|i| self.arc_length(at(i as f64 / count as f64))));
         }
+        samples.extend(&self.corners);
+        samples.sort_by(f64::total_cmp);
+        samples.dedup();
         samples
     }
 
