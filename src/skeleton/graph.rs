@@ -1,6 +1,7 @@
 //! The medial axis as a graph: forks, where a disc touches the boundary in three places or more, and branches between them.
 
 use super::triangulation::{Site, Triangulation, circumcenter, distance};
+use super::open::MOST;
 use crate::domain::Domain;
 
 /// A fork. Around it, counter-clockwise, boundary points and branches take turns.
@@ -54,6 +55,8 @@ pub(super) struct Graph {
 const ROUGH: f64 = 65.0;
 /// Forks nearer to each other than this share of their radius are one.
 const NEAR: f64 = 0.05;
+/// Smooth ends further along the boundary than this many radii of their fork are corridors.
+const LONG: f64 = 2.5;
 
 impl Graph {
     /// The graph of a triangulation's triangles with three neighbours, and the chains between them.
@@ -152,10 +155,10 @@ impl Graph {
     /// Takes out what is only roughness, joins forks that are one, until nothing changes.
     pub(super) fn simplify(&mut self, domain: &Domain) {
         // Points on one circle first: how they were triangulated is chance.
-        while self.contract_where(domain, 1e-6) {}
+        while self.contract_where(domain, 1e-6, usize::MAX) {}
         loop {
             let changed = self.prune_rough(domain) || self.dissolve_passing();
-            if !changed && !self.contract_where(domain, NEAR) {
+            if !changed && !self.contract_where(domain, NEAR, MOST) {
                 return;
             }
         }
@@ -174,25 +177,85 @@ impl Graph {
         }
     }
 
-    /// Contracts the first branch between two forks that are nearer than a share of their radius or share a boundary point.
-    fn contract_where(&mut self, domain: &Domain, share: f64) -> bool {
-        for b in 0..self.branches.len() {
-            let Some(Branch { ends: [End::Fork(f), End::Fork(g)], .. }) = self.branches[b] else { continue };
-            let (Some(first), Some(second)) = (&self.forks[f], &self.forks[g]) else { continue };
-            if f == g {
-                continue;
-            }
-            let radius = |fork: &Fork| distance(fork.position, plan(domain, fork.ring[0].site));
-            let near = distance(first.position, second.position) <= share * radius(first).min(radius(second));
-            let (Some(i), Some(j)) = (slot_of(first, b, 0), slot_of(second, b, 1)) else { continue };
-            let same = |p: usize, q: usize| first.ring[p].site == second.ring[q].site;
-            let (n, m) = (first.ring.len(), second.ring.len());
-            if near || same(i, (j + 1) % m) || same((i + 1) % n, j) {
-                self.contract(domain, b, [f, i], [g, j]);
-                return true;
-            }
+    /// Contracts the shortest branch between two forks that are nearer than a share of their radius or share a boundary point, and
+    /// together have not too many edges.
+    fn contract_where(&mut self, domain: &Domain, share: f64, most: usize) -> bool {
+        let shortest = (0..self.branches.len())
+            .filter_map(|b| Some((b, self.contractible(domain, b, share, most)?)))
+            .min_by(|(_, a), (_, b)| a.0.total_cmp(&b.0));
+        let Some((b, (_, first, second))) = shortest else { return false };
+        self.contract(domain, b, first, second);
+        true
+    }
+
+    /// Whether a branch may be contracted: its length by the smaller radius, and the slots at its ends.
+    fn contractible(
+        &self,
+        domain: &Domain,
+        b: usize,
+        share: f64,
+        most: usize,
+    ) -> Option<(f64, [usize; 2], [usize; 2])> {
+        let Some(Branch { ends: [End::Fork(f), End::Fork(g)], .. }) = self.branches[b] else { return None };
+        let (first, second) = (self.forks[f].as_ref()?, self.forks[g].as_ref()?);
+        if f == g {
+            return None;
         }
-        false
+        let radius = |fork: &Fork| distance(fork.position, plan(domain, fork.ring[0].site));
+        let length = distance(first.position, second.position) / radius(first).min(radius(second));
+        let (i, j) = (slot_of(first, b, 0)?, slot_of(second, b, 1)?);
+        let same = |p: usize, q: usize| first.ring[p].site == second.ring[q].site;
+        let (n, m) = (first.ring.len(), second.ring.len());
+        let one = length <= share || same(i, (j + 1) % m) || same((i + 1) % n, j);
+        // Two boundary points become one on either side of the branch, which goes with both its ends.
+        let edges = || self.valence(domain, f) + self.valence(domain, g) - 4;
+        (one && (most == usize::MAX || edges() <= most)).then_some((length, [f, i], [g, j]))
+    }
+
+    /// Edges at the vertex of a fork: to its boundary points, and along its branches except those that end in one quad.
+    pub(super) fn valence(&self, domain: &Domain, f: usize) -> usize {
+        let Some(fork) = &self.forks[f] else { return 0 };
+        (0..fork.ring.len()).map(|i| self.edges(domain, fork, i)).sum()
+    }
+
+    /// Edges that a slot brings to the vertex of its fork: one or two.
+    pub(super) fn edges(&self, domain: &Domain, fork: &Fork, slot: usize) -> usize {
+        let Slot { branch, end, .. } = fork.ring[slot];
+        let along = match self.branches[branch].as_ref().map(|b| b.ends[1 - end]) {
+            Some(End::Leaf(tip)) => is_long(domain, fork, slot, tip),
+            _ => true,
+        };
+        1 + usize::from(along)
+    }
+
+    /// The slot at the other end of the branch in a slot.
+    pub(super) fn beyond(&self, f: usize, i: usize) -> Option<[usize; 2]> {
+        let slot = self.forks[f].as_ref()?.ring[i];
+        let End::Fork(g) = self.branches[slot.branch].as_ref()?.ends[1 - slot.end] else { return None };
+        Some([g, slot_of(self.forks[g].as_ref()?, slot.branch, 1 - slot.end)?])
+    }
+
+    /// A slot by its fork and its place in the ring.
+    pub(super) fn slot(&self, [f, i]: [usize; 2]) -> Option<Slot> {
+        self.forks[f].as_ref()?.ring.get(i).copied()
+    }
+
+    /// Gives a fork another boundary point in a slot.
+    pub(super) fn move_site(&mut self, [f, i]: [usize; 2], site: Site) {
+        if let Some(fork) = &mut self.forks[f] {
+            fork.ring[i].site = site;
+        }
+    }
+
+    /// The boundary points of all forks, the ends of all branches and the corners of the domain.
+    pub(super) fn sites(&self, domain: &Domain) -> Vec<Site> {
+        let rings = self.forks.iter().flatten().flat_map(|fork| fork.ring.iter().map(|slot| slot.site));
+        let tips = self.branches.iter().flatten().flat_map(|b| b.ends).filter_map(|end| match end {
+            End::Leaf(tip) => Some(tip),
+            _ => None,
+        });
+        let corner = |c| domain.corner(c).map(|(loop_number, s)| Site { loop_number, s, corner: Some(c) });
+        rings.chain(tips).chain((0..domain.corner_count()).filter_map(corner)).collect()
     }
 
     /// Makes one fork of the two at the ends of a branch, which is in slot `i` of fork `f` and in slot `j` of fork `g`.
@@ -221,7 +284,7 @@ impl Graph {
         self.forks[f] = Some(Fork { position, ring });
     }
 
-    fn attach(&mut self, branch: usize, end: usize, to: End) {
+    pub(super) fn attach(&mut self, branch: usize, end: usize, to: End) {
         if let Some(branch) = &mut self.branches[branch] {
             branch.ends[end] = to;
         }
@@ -328,6 +391,16 @@ fn centered(domain: &Domain, tip: Site, pairs: &[[Site; 2]]) -> Site {
         Some(&[right, left]) => along(domain, left, right, 0.5),
         None => tip,
     }
+}
+
+/// Whether the smooth end that a slot leads to is so far off that one quad would be several times as long as wide.
+pub(super) fn is_long(domain: &Domain, fork: &Fork, slot: usize, tip: Site) -> bool {
+    let (right, left) = (fork.ring[slot].site, fork.ring[(slot + 1) % fork.ring.len()].site);
+    if tip.corner.is_some() || [right, left].iter().any(|s| s.loop_number != tip.loop_number) {
+        return false;
+    }
+    let way = stretch(domain, right, tip).min(stretch(domain, tip, left));
+    way > LONG * distance(fork.position, plan(domain, right))
 }
 
 /// The slot of a fork that holds one end of a branch.
