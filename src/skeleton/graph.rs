@@ -55,6 +55,8 @@ pub(super) struct Graph {
 const ROUGH: f64 = 65.0;
 /// Forks nearer to each other than this share of their radius are one.
 const NEAR: f64 = 0.05;
+/// A corner belongs to the tip of a branch if a chord of this share of the branch's width cuts both off.
+const FILLET: f64 = 0.2;
 /// Smooth ends further along the boundary than this many radii of their fork are corridors.
 const LONG: f64 = 2.5;
 
@@ -164,14 +166,16 @@ impl Graph {
         }
     }
 
-    /// Puts the tip of every smooth end in the middle of the arc that the last disc touches: where on an arc the triangles end is
-    /// chance.
+    /// Puts the tip of every smooth end on a corner near it (in a fillet), or else in the middle of the arc that the last disc
+    /// touches: where on an arc the triangles end is chance.
     pub(super) fn center_tips(&mut self, domain: &Domain) {
         for branch in self.branches.iter_mut().flatten() {
             for end in 0..2 {
                 let End::Leaf(tip) = branch.ends[end] else { continue };
                 if tip.corner.is_none() {
-                    branch.ends[end] = End::Leaf(centered(domain, tip, &branch.directed(end)));
+                    let pairs = branch.directed(end);
+                    let corner = corner_near(domain, tip, &pairs);
+                    branch.ends[end] = End::Leaf(corner.unwrap_or_else(|| centered(domain, tip, &pairs)));
                 }
             }
         }
@@ -206,10 +210,10 @@ impl Graph {
         let (i, j) = (slot_of(first, b, 0)?, slot_of(second, b, 1)?);
         let same = |p: usize, q: usize| first.ring[p].site == second.ring[q].site;
         let (n, m) = (first.ring.len(), second.ring.len());
-        let one = length <= share || same(i, (j + 1) % m) || same((i + 1) % n, j);
+        let joined = length <= share || share >= NEAR && (same(i, (j + 1) % m) || same((i + 1) % n, j));
         // Two boundary points become one on either side of the branch, which goes with both its ends.
         let edges = || self.valence(domain, f) + self.valence(domain, g) - 4;
-        (one && (most == usize::MAX || edges() <= most)).then_some((length, [f, i], [g, j]))
+        (joined && edges() <= most).then_some((length, [f, i], [g, j]))
     }
 
     /// Edges at the vertex of a fork: to its boundary points, and along its branches except those that end in one quad.
@@ -378,6 +382,23 @@ impl Branch {
             self.pairs.iter().rev().map(|&[right, left]| [left, right]).collect()
         }
     }
+}
+
+/// The corner of the domain that lies about a smooth tip, within a chord that is short against the widest of the branch.
+fn corner_near(domain: &Domain, tip: Site, pairs: &[[Site; 2]]) -> Option<Site> {
+    let chord = |[right, left]: &[Site; 2]| distance(plan(domain, *right), plan(domain, *left));
+    let widest = pairs.iter().map(chord).fold(0.0, f64::max);
+    // Going away from the tip, the boundary runs from the left over the tip to the right.
+    let &[right, left] = pairs
+        .iter()
+        .take_while(|pair| chord(pair) < FILLET * widest && pair.iter().all(|s| s.loop_number == tip.loop_number))
+        .last()?;
+    let whole = stretch(domain, left, right);
+    domain.loop_corners(tip.loop_number).find_map(|corner| {
+        let (loop_number, s) = domain.corner(corner)?;
+        let site = Site { loop_number, s, corner: Some(corner) };
+        (stretch(domain, left, site) <= whole).then_some(site)
+    })
 }
 
 /// The middle of the arc about a tip that lies on its disc; `pairs` go away from the tip.
