@@ -9,7 +9,7 @@ mod supports;
 use crate::config::Config;
 use crate::domain::{self, Domain, DomainError};
 use crate::evolve::{FAILED, Violation};
-use crate::geometry::limits::{self, LimitExcess};
+use crate::geometry::limits::{self, LimitExcess, Limits};
 use crate::geometry::metrics::{self, Fabrication};
 use crate::geometry::params::{Pinched, RulesParam};
 use crate::geometry::{self, Pattern, PatternParams, Rejection};
@@ -46,6 +46,7 @@ pub struct Study {
     baseline: Code,
     pinched: Pinched,
     pattern: PatternParams,
+    limits: Limits,
     structure: Option<StructureParams>,
     search: SearchParams,
 }
@@ -176,6 +177,7 @@ impl Study {
             supports::check_symmetries(&domain, &symmetries, structure)?;
         }
         let symmetries: Vec<Symmetry> = symmetries.into_iter().map(|(_, symmetry)| symmetry).collect();
+        let limits = Limits::of(&config.pattern.limits, config.pattern.target_length(&domain));
         let objectives =
             config.objectives.minimise.iter().filter_map(|name| objectives::find(name)).collect();
         Ok(Self {
@@ -190,6 +192,7 @@ impl Study {
             initial,
             objectives,
             pinched: config.topology.pinched,
+            limits,
             pattern: config.pattern.clone(),
             structure: config.structure.clone(),
             search: config.search.clone(),
@@ -224,12 +227,16 @@ impl Study {
     /// # Errors
     /// The [`Failure`] of the first stage that refuses the design.
     pub fn develop(&self, topology: CanonicalMesh, effort: Effort) -> Result<Design, Failure> {
-        if let Some(rejection) = geometry::topological_rejection(&topology, &self.domain, self.pinched) {
+        // Who wants every number gets them of designs too that break a limit in every pattern.
+        let limits = (effort != Effort::Everything).then_some(&self.limits);
+        if let Some(rejection) =
+            geometry::topological_rejection(&topology, &self.domain, self.pinched, limits)
+        {
             return Err(rejection.into());
         }
         let pattern = geometry::develop(&topology, &self.domain, self.surface.as_ref(), &self.pattern)?;
         let fabrication = metrics::measure(&pattern, &topology);
-        let limits = limits::excesses(&pattern, &self.pattern.limits);
+        let limits = limits::excesses(&pattern, &self.limits);
         let worthwhile = match effort {
             Effort::Pattern => false,
             Effort::Promising => limits.iter().all(|limit| limit.excess <= 0.0),
@@ -335,7 +342,8 @@ impl Problem for Study {
     fn identify(&self, tokens: &Tokens) -> Identity {
         let decoded = self.decode(tokens);
         let topology = canonical_mesh_under(&decoded.mesh, &self.symmetries);
-        let rejected = geometry::topological_rejection(&topology, &self.domain, self.pinched)
+        let limits = (topology.code != self.baseline).then_some(&self.limits);
+        let rejected = geometry::topological_rejection(&topology, &self.domain, self.pinched, limits)
             .map(Failure::from)
             .map(|failure| (failure.violation, failure.reason));
         Identity {

@@ -148,12 +148,16 @@ fn describe_pattern(pattern: &PatternParams) -> Vec<String> {
     };
     let limits = &pattern.limits;
     let mut parts = Vec::new();
-    if let Some(length) = limits.min_edge_m {
-        parts.push(format!("members of at least {length} m"));
-    }
+    parts.push(match limits.min_edge_m {
+        Some(length) => format!("members of at least {length} m"),
+        None => "members of at least a quarter of the target length".into(),
+    });
     parts.push(format!("at most {} × the target length", limits.max_edge_factor));
     parts.push(format!("panel angles of at least {}°", limits.min_angle_deg));
     parts.push(format!("at most {} members at a node", limits.max_valence));
+    if limits.min_valence > 2 {
+        parts.push(format!("at least {} members at an inner node", limits.min_valence));
+    }
     if let Some(area) = limits.max_panel_area_m2 {
         parts.push(format!("panels of at most {area} m²"));
     }

@@ -68,6 +68,9 @@ impl Cell {
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Stretch([f64; 2]);
 
+/// A step in the parameter back from a kink, onto the piece before it.
+const NEAR: f64 = 1e-6;
+
 /// Cells of a loop where its speed is not even.
 const CELLS: usize = 1024;
 
@@ -147,14 +150,14 @@ impl BoundaryLoop {
     }
 
     /// Arc length from the start to a curve parameter in `0..=period`.
-    pub(super) fn arc_length(&self, t: f64) -> f64 {
+    pub fn arc_length(&self, t: f64) -> f64 {
         let i = self.cells.partition_point(|c| c.t <= t).saturating_sub(1);
         let cell = &self.cells[i];
         cell.s + cell.length * cell.length_share(((t - cell.t) / cell.width).clamp(0.0, 1.0))
     }
 
-    /// Curve parameter at an arc length, modulo the length.
-    pub(super) fn parameter(&self, s: f64) -> f64 {
+    /// Curve parameter at an arc length, modulo the length: the same for a loop and for the loop in plan.
+    pub fn parameter(&self, s: f64) -> f64 {
         let s = s.rem_euclid(self.length);
         // A point at a corner is the corner, to the last bit.
         if let Ok(i) = self.corners.binary_search_by(|c| c.total_cmp(&s)) {
@@ -181,6 +184,43 @@ impl BoundaryLoop {
         let d = self.derivative(self.parameter(s));
         let length = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
         d.map(|v| v / length)
+    }
+
+    /// The same loop in plan, by its plan length.
+    pub fn in_plan(&self) -> Self {
+        let mut flat = Self {
+            curve: self.curve.flattened(),
+            surface: None,
+            corner_parameters: self.corner_parameters.clone(),
+            corners: Vec::new(),
+            cells: Vec::new(),
+            length: 0.0,
+        };
+        flat.measure();
+        flat.corners = flat.corner_parameters.iter().map(|&t| flat.arc_length(t)).collect();
+        flat
+    }
+
+    /// Point and unit tangent at arc length `s`, modulo the length.
+    pub fn place(&self, s: f64) -> ([f64; 3], [f64; 3]) {
+        let t = self.parameter(s);
+        let d = self.derivative(t);
+        let length = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
+        (self.at(t), d.map(|v| v / length))
+    }
+
+    /// Angle by which the curve turns at a corner at arc length `s`, along the surface, −π..π; positive to the left.
+    pub(super) fn turning(&self, s: f64) -> f64 {
+        let t = self.parameter(s);
+        let before = self.derivative((t - NEAR).rem_euclid(self.curve.period()));
+        let after = self.derivative(t);
+        let across: [f64; 3] = std::array::from_fn(|k| {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            before[i] * after[j] - before[j] * after[i]
+        });
+        let along: f64 = (0..3).map(|k| before[k] * after[k]).sum();
+        let size = across.iter().map(|a| a * a).sum::<f64>().sqrt();
+        libm::atan2(size.copysign(across[2]), along)
     }
 
     /// Arc lengths of the corners, ascending, in `0..length`.

@@ -60,6 +60,17 @@ impl Curve {
         }
     }
 
+    /// The same curve at height 0.
+    pub(super) fn flattened(&self) -> Self {
+        let down = |[x, y, _]: &[f64; 3]| [*x, *y, 0.0];
+        match self {
+            Self::Polyline { points } => Self::Polyline { points: points.iter().map(down).collect() },
+            Self::Ellipse { center, axes, turn } => {
+                Self::Ellipse { center: down(center), axes: *axes, turn: *turn }
+            }
+        }
+    }
+
     /// d point / dt; at a kink that of the piece after it.
     pub(super) fn derivative(&self, t: f64) -> [f64; 3] {
         match self {
@@ -159,6 +170,42 @@ impl Curve {
                 inside
             }
             Self::Ellipse { .. } => self.ellipse_radius([x, y]) < 1.0,
+        }
+    }
+
+    /// Where the line on which the other coordinate is `level` crosses the curve: the coordinate `axis` (0: x, 1: y) of an even
+    /// number of points. A line that only touches does not cross.
+    pub(super) fn crossings(&self, axis: usize, level: f64) -> Vec<f64> {
+        let across = 1 - axis;
+        match self {
+            Self::Polyline { points } => (0..points.len())
+                .filter_map(|i| {
+                    let (a, b) = (points[i], points[(i + 1) % points.len()]);
+                    let share = (level - a[across]) / (b[across] - a[across]);
+                    ((a[across] > level) != (b[across] > level))
+                        .then(|| a[axis] + share * (b[axis] - a[axis]))
+                })
+                .collect(),
+            // |M (p − centre)|² = 1, quadratic in the coordinate along the line.
+            Self::Ellipse { center, axes, turn } => {
+                let local = |p: [f64; 2]| {
+                    [(p[0] * turn[0] + p[1] * turn[1]) / axes[0], (p[1] * turn[0] - p[0] * turn[1]) / axes[1]]
+                };
+                let mut unit = [0.0; 2];
+                unit[axis] = 1.0;
+                let mut offset = [0.0; 2];
+                offset[across] = level - center[across];
+                let (d, o) = (local(unit), local(offset));
+                let square = d[0] * d[0] + d[1] * d[1];
+                let middle = -(d[0] * o[0] + d[1] * o[1]) / square;
+                let moment = d[0] * o[1] - d[1] * o[0];
+                let rest = square - moment * moment;
+                if rest <= 0.0 {
+                    return Vec::new();
+                }
+                let half = rest.sqrt() / square;
+                vec![center[axis] + middle - half, center[axis] + middle + half]
+            }
         }
     }
 

@@ -1,5 +1,6 @@
 //! The domain: boundary loops and their corners, on the surface (GEOMETRY §1).
 
+mod area;
 mod boundary;
 mod check;
 mod curve;
@@ -15,6 +16,8 @@ pub use params::{Corners, DomainParams, LoopParams, Symmetry};
 pub use side::Side;
 
 use crate::surface::Surface;
+use curve::Curve;
+use std::f64::consts::PI;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -25,6 +28,8 @@ pub struct Domain {
     pub loops: Vec<BoundaryLoop>,
     /// Curve parameter of the mark on loop 0; it counts where no loop has a corner.
     mark: f64,
+    /// Area of the surface within the boundary, m².
+    surface_area: f64,
 }
 
 impl Domain {
@@ -59,9 +64,11 @@ impl Domain {
             }
             Some([x, y]) => curves[0].closest([x, y, 0.0], true),
         };
+        let plan_area = curves[0].area() - curves[1..].iter().map(Curve::area).sum::<f64>();
+        let surface_area = area::on_surface(&curves, plan_area, surface.as_ref());
         let loops =
             read.into_iter().map(|(curve, corners)| BoundaryLoop::new(curve, surface, corners)).collect();
-        Ok(Self { loops, mark })
+        Ok(Self { loops, mark, surface_area })
     }
 
     /// Corners of all loops together.
@@ -108,6 +115,21 @@ impl Domain {
     /// Plan area without the holes, m².
     pub fn area(&self) -> f64 {
         self.loops[0].area() - self.loops[1..].iter().map(BoundaryLoop::area).sum::<f64>()
+    }
+
+    /// Area of the surface within the boundary, m²; on a free surface the plan area. It is a property of the domain alone, so
+    /// that a target length taken from it is the same for all designs (PATTERN §2).
+    pub fn surface_area(&self) -> f64 {
+        self.surface_area
+    }
+
+    /// Angle within the domain at a corner, along the surface, rad: what the panels there share. π/2 in a rectangle's corner, 3π/2
+    /// at a re-entrant one and at the corner of a rectangular hole. π where there is no such corner, as
+    /// anywhere on a smooth boundary.
+    pub fn corner_angle(&self, corner: usize) -> f64 {
+        let Some((label, s)) = self.corner(corner) else { return PI };
+        let turning = self.loops[label].turning(s);
+        PI + if label == 0 { -turning } else { turning }
     }
 
     /// Whether (x, y) lies in the domain or within 1e-9 of its size from the boundary.

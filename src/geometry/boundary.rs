@@ -16,6 +16,8 @@ pub struct BoundaryLoop {
     pub anchors: Vec<(usize, f64)>,
     /// The dense vertex that takes each corner, in the order of the corners.
     pub corners: Vec<u32>,
+    /// Whether its corners are kinks; false for the mark.
+    pub is_sharp: bool,
     /// Length of the curve, m.
     pub length: f64,
 }
@@ -50,6 +52,7 @@ fn anchor_loop(
             vertices: rotated(vertices, start),
             anchors: Vec::new(),
             corners: Vec::new(),
+            is_sharp: corners.sharp,
             length,
         });
     };
@@ -87,7 +90,7 @@ fn anchor_loop(
     for (i, &(position, _)) in anchors.iter().enumerate() {
         taken[order[i]] = vertices[position];
     }
-    Ok(BoundaryLoop { vertices, anchors, corners: taken, length })
+    Ok(BoundaryLoop { vertices, anchors, corners: taken, is_sharp: corners.sharp, length })
 }
 
 fn smallest(coarse: &[u32], dense: &[u32]) -> usize {

@@ -5,6 +5,7 @@ use super::pattern::Panel;
 
 /// The dense mesh without positions. A coarse vertex keeps its number; the vertices inside coarse edges follow, edge
 /// by edge, then those inside coarse faces, face by face.
+#[derive(Clone)]
 pub struct Dense {
     /// Number of vertices.
     pub vertex_count: usize,
@@ -14,8 +15,36 @@ pub struct Dense {
     pub coarse_face: Vec<u32>,
     /// For each coarse edge, its vertices from end to end.
     pub edge_paths: Vec<Vec<u32>>,
+    /// For each coarse face, the first of the vertices inside it.
+    pub face_inner: Vec<u32>,
     /// Boundary loops, counter-clockwise seen from above.
     pub loops: Vec<Vec<u32>>,
+}
+
+/// The vertices of one coarse face `[a, b, c, d]`, in n parts from a to b and m from a to d.
+pub struct Grid {
+    /// Parts from a to b.
+    pub n: usize,
+    /// Parts from a to d.
+    pub m: usize,
+    /// Row 0 from a to b (all the pole if a = b), and row m from d to c.
+    rows: [Vec<u32>; 2],
+    /// Column 0 from a to d, and column n from b to c.
+    columns: [Vec<u32>; 2],
+    inner: u32,
+}
+
+impl Grid {
+    /// The vertex in column `i`, 0 to n, of row `j`, 0 to m.
+    pub fn at(&self, i: usize, j: usize) -> u32 {
+        match (i, j) {
+            (_, 0) => self.rows[0][i],
+            (_, j) if j == self.m => self.rows[1][i],
+            (0, j) => self.columns[0][j],
+            (i, j) if i == self.n => self.columns[1][j],
+            (i, j) => self.inner + ((j - 1) * (self.n - 1) + i - 1) as u32,
+        }
+    }
 }
 
 /// How many panels the densities give; `usize::MAX` if there are more than that.
@@ -43,31 +72,14 @@ pub fn densify(coarse: &Coarse<'_>, density: &[u32]) -> Dense {
             std::iter::once(u).chain(inner).chain(std::iter::once(v)).collect()
         })
         .collect();
-    let path = |u: u32, v: u32| -> Vec<u32> {
-        let e = coarse.edge(u, v);
-        let mut vertices = edge_paths[e].clone();
-        if coarse.edges[e][0] != u {
-            vertices.reverse();
-        }
-        vertices
-    };
-
+    let mut face_inner = Vec::with_capacity(mesh.faces.len());
     let mut panels = Vec::with_capacity(panel_count(coarse, density));
     let mut coarse_face = Vec::with_capacity(panels.capacity());
-    for (f, (&[a, b, c, d], &[s, t])) in mesh.faces.iter().zip(&mesh.face_strips).enumerate() {
+    for (f, &[s, t]) in mesh.face_strips.iter().enumerate() {
         let (n, m) = (density[s as usize] as usize, density[t as usize] as usize);
-        // Row 0 runs from a to b (all the pole if a = b), row m from d to c; rows lie between a–d and b–c.
-        let first = if a == b { vec![a; n + 1] } else { path(a, b) };
-        let last = path(d, c);
-        let (start, end) = (path(a, d), path(b, c));
-        let inner = fresh(((n - 1) * (m - 1)) as u32).start;
-        let at = |i: usize, j: usize| match (i, j) {
-            (_, 0) => first[i],
-            (_, j) if j == m => last[i],
-            (0, j) => start[j],
-            (i, j) if i == n => end[j],
-            (i, j) => inner + ((j - 1) * (n - 1) + i - 1) as u32,
-        };
+        face_inner.push(fresh(((n - 1) * (m - 1)) as u32).start);
+        let grid = grid(coarse, &edge_paths, face_inner[f], f);
+        let at = |i, j| grid.at(i, j);
         for j in 0..m {
             for i in 0..n {
                 let corners = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
@@ -87,14 +99,41 @@ pub fn densify(coarse: &Coarse<'_>, density: &[u32]) -> Dense {
             let n = vertices.len();
             (0..n)
                 .flat_map(|i| {
-                    let mut stretch = path(vertices[i], vertices[(i + 1) % n]);
+                    let mut stretch = path(coarse, &edge_paths, vertices[i], vertices[(i + 1) % n]);
                     stretch.pop();
                     stretch
                 })
                 .collect()
         })
         .collect();
-    Dense { vertex_count: next as usize, panels, coarse_face, edge_paths, loops }
+    Dense { vertex_count: next as usize, panels, coarse_face, edge_paths, face_inner, loops }
+}
+
+/// The vertices of a coarse edge from `u` to `v`.
+fn path(coarse: &Coarse<'_>, edge_paths: &[Vec<u32>], u: u32, v: u32) -> Vec<u32> {
+    let e = coarse.edge(u, v);
+    let mut vertices = edge_paths[e].clone();
+    if coarse.edges[e][0] != u {
+        vertices.reverse();
+    }
+    vertices
+}
+
+fn grid(coarse: &Coarse<'_>, edge_paths: &[Vec<u32>], inner: u32, face: usize) -> Grid {
+    let [a, b, c, d] = coarse.mesh.faces[face];
+    let path = |u, v| path(coarse, edge_paths, u, v);
+    let last = path(d, c);
+    let n = last.len() - 1;
+    let rows = [if a == b { vec![a; n + 1] } else { path(a, b) }, last];
+    let columns = [path(a, d), path(b, c)];
+    Grid { n, m: columns[0].len() - 1, rows, columns, inner }
+}
+
+impl Dense {
+    /// The vertices of a coarse face.
+    pub fn grid(&self, coarse: &Coarse<'_>, face: usize) -> Grid {
+        grid(coarse, &self.edge_paths, self.face_inner[face], face)
+    }
 }
 
 /// The edges of a mesh and the panels on their two sides.

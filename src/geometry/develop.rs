@@ -5,9 +5,11 @@ use super::check;
 use super::coarse::Coarse;
 use super::corners::{self, LoopCorners};
 use super::dense::{Dense, Edges, densify};
-use super::density::{self, Densities};
+use super::density::Fineness;
 use super::force_density;
-use super::params::{PatternParams, Pinched, RelaxKind};
+use super::limits::Limits;
+use super::optimise::{Ground, Optimiser, Sheet, Task};
+use super::params::{Density, PatternParams, Pinched, RelaxKind};
 use super::pattern::Pattern;
 use super::place::{self, Folds, Placed};
 use super::rejection::Rejection;
@@ -17,17 +19,24 @@ use crate::domain::Domain;
 use crate::mesh::CanonicalMesh;
 use crate::surface::Surface;
 
-/// What is wrong with a mesh before any geometry: other loops than the domain, flat faces, pinched vertices.
-pub fn topological_rejection(mesh: &CanonicalMesh, domain: &Domain, pinched: Pinched) -> Option<Rejection> {
+/// What is wrong with a mesh before any geometry: other loops than the domain, flat faces, pinched vertices, and, with `limits`, vertices
+/// whose panels break them in every pattern (PATTERN §1).
+pub fn topological_rejection(
+    mesh: &CanonicalMesh,
+    domain: &Domain,
+    pinched: Pinched,
+    limits: Option<&Limits>,
+) -> Option<Rejection> {
     let coarse = Coarse::of(mesh);
     if coarse.loops.len() != domain.loops.len() {
         return Some(Rejection::OtherLoops { mesh: coarse.loops.len(), domain: domain.loops.len() });
     }
     let corners = corners::assign(&coarse, domain);
     topology::reject(&coarse, domain, &corners, pinched == Pinched::Allow)
+        .or_else(|| limits.and_then(|limits| topology::reject_crowded(&coarse, domain, &corners, limits)))
 }
 
-/// Develops a design: corners → densities → placed → relaxed → checked.
+/// Develops a design: corners → densities and geometry → checked.
 ///
 /// [`topological_rejection`] is not asked again; a mesh it refuses gives some pattern or a fold.
 ///
@@ -59,16 +68,22 @@ pub fn shape(
         return Err(Rejection::OtherLoops { mesh: coarse.loops.len(), domain: domain.loops.len() });
     }
     let corners = corners::assign(&coarse, domain);
+    let limits = Limits::of(&params.limits, params.target_length(domain));
     let stage = Stage { coarse: &coarse, domain, surface, corners: &corners };
-
-    let probe = stage.probe(params.max_faces)?;
-    let lengths = density::strip_lengths(&coarse, &probe.dense, &probe.placed.positions);
-    let densities = density::choose(&coarse, &lengths, params)?;
-    let pattern = stage.relaxed(&densities, params, Folds::Leave)?;
+    let task = stage.task(params, &limits);
+    let ground = Ground::new(domain, surface, limits.target_length);
+    let optimiser = Optimiser::new(&task, &ground);
+    let probe = stage.probe(params.max_faces)?.into_sheet(&ground);
+    if params.relax.kind == RelaxKind::Optimise {
+        let first = stage.place(&optimiser.coarse_rows(&probe), Folds::Leave)?.into_sheet(&ground);
+        return optimiser.run(first);
+    }
+    let rows = optimiser.pattern_rows(&probe)?;
+    let pattern = stage.relaxed(&rows, params, &limits, Folds::Leave)?;
     if check::check(&pattern, domain, surface).is_ok() {
         return Ok(pattern);
     }
-    stage.relaxed(&densities, params, Folds::Unfold)
+    stage.relaxed(&rows, params, &limits, Folds::Unfold)
 }
 
 /// The net of equal force densities held by the boundary, then back onto the surface.
@@ -90,6 +105,9 @@ fn balance(
     Ok(())
 }
 
+/// Parts of every strip of the mesh on which lengths are first measured.
+const PROBE_PARTS: u32 = 4;
+
 struct Stage<'a> {
     coarse: &'a Coarse<'a>,
     domain: &'a Domain,
@@ -105,14 +123,29 @@ struct Site {
 }
 
 impl Stage<'_> {
+    fn task<'b>(&'b self, params: &PatternParams, limits: &'b Limits) -> Task<'b> {
+        let t = limits.target_length;
+        let panels = match params.density {
+            Density::Panels => params.panels as f64,
+            Density::TargetLength => self.domain.surface_area() / (t * t),
+        };
+        let fineness = match params.density {
+            Density::Panels => Fineness::Panels(panels),
+            Density::TargetLength => Fineness::Width(t),
+        };
+        let Self { coarse, domain, surface, corners } = *self;
+        Task { coarse, domain, surface, corners, limits, fineness, panels, max_faces: params.max_faces }
+    }
+
     /// Placed and relaxed at the given densities.
     fn relaxed(
         &self,
-        densities: &Densities,
+        rows: &[u32],
         params: &PatternParams,
+        limits: &Limits,
         folds: Folds,
     ) -> Result<Pattern, Rejection> {
-        let mut site = self.place(&densities.parts, folds)?;
+        let mut site = self.place(rows, folds)?;
         let Site { dense, edges, loops, placed } = &mut site;
         if params.relax.kind == RelaxKind::ForceDensity {
             balance(dense, edges, placed, self.surface)?;
@@ -120,18 +153,18 @@ impl Stage<'_> {
             let sweeps = relax::Mesh::new(dense.vertex_count, &dense.panels, &edges.list, loops);
             relax::relax(placed, &sweeps, self.domain, self.surface, &params.relax);
         }
-        Ok(site.into_pattern(self.coarse, self.corners, densities.target_length))
+        Ok(site.into_pattern(self.coarse, self.corners, limits.target_length))
     }
 
-    /// Every strip in the same number of parts, on which lengths are measured: in more than [`density::PROBE_PARTS`]
+    /// Every strip in the same number of parts, on which lengths are measured: in more than [`PROBE_PARTS`]
     /// where otherwise corners that no coarse vertex took would find no place between two that did.
     fn probe(&self, max_faces: usize) -> Result<Site, Rejection> {
         let place = |parts| self.place(&vec![parts; self.coarse.mesh.strips.len()], Folds::Leave);
         let untaken = self.corners.iter().map(LoopCorners::longest_untaken).max().unwrap_or(0);
         // Beyond this the pattern itself would have too many faces.
         let affordable = (max_faces / self.coarse.mesh.faces.len().max(1)).isqrt();
-        match (place(density::PROBE_PARTS), (untaken + 1).min(affordable) as u32) {
-            (Err(Rejection::CornerLost { .. }), more) if more > density::PROBE_PARTS => place(more),
+        match (place(PROBE_PARTS), (untaken + 1).min(affordable) as u32) {
+            (Err(Rejection::CornerLost { .. }), more) if more > PROBE_PARTS => place(more),
             (placed, _) => placed,
         }
     }
@@ -146,6 +179,11 @@ impl Stage<'_> {
 }
 
 impl Site {
+    fn into_sheet(self, ground: &Ground<'_>) -> Sheet {
+        let points = self.placed.positions.into_iter().map(|p| ground.local(p)).collect();
+        Sheet::placed(ground, self.dense, points, &self.loops, &self.placed.along)
+    }
+
     fn into_pattern(self, coarse: &Coarse<'_>, corners: &[LoopCorners], target_length: f64) -> Pattern {
         let taken =
             |(l, c): (&BoundaryLoop, &LoopCorners)| if c.sharp { l.corners.clone() } else { Vec::new() };
@@ -159,6 +197,7 @@ impl Site {
                 .map(|c| if c.sharp { c.numbers.clone() } else { c.numbers.start..c.numbers.start })
                 .collect(),
             loops: self.loops.into_iter().map(|l| l.vertices).collect(),
+            along: self.placed.along,
             coarse: (0..coarse.mesh.vertex_count as u32).collect(),
             coarse_face: self.dense.coarse_face,
             target_length,

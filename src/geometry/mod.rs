@@ -19,6 +19,7 @@ pub mod force_density;
 pub mod laplacian;
 pub mod limits;
 pub mod metrics;
+pub mod optimise;
 pub mod params;
 pub mod pattern;
 pub mod place;

@@ -1,5 +1,6 @@
 //! The `[pattern]` table of the config.
 
+use crate::domain::Domain;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -38,6 +39,17 @@ impl Default for PatternParams {
     }
 }
 
+impl PatternParams {
+    /// Target edge length t of all designs on a domain, m: the given one, or with `density = "panels"` √(A/N) for N panels on the
+    /// area A of the surface (PATTERN §2).
+    pub fn target_length(&self, domain: &Domain) -> f64 {
+        match (self.density, self.target_length_m) {
+            (Density::TargetLength, Some(length)) => length,
+            _ => (domain.surface_area() / self.panels.max(1) as f64).sqrt(),
+        }
+    }
+}
+
 /// The rule that sets the density of strips.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -55,9 +67,9 @@ pub const FREE_SWEEPS: usize = 500;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct RelaxParams {
-    /// Weights of the smoothing; default on a free surface `uniform`.
+    /// How vertices are moved; default `optimise`, on a free surface `uniform`.
     pub kind: RelaxKind,
-    /// Number of Jacobi sweeps; default on a free surface 500.
+    /// Number of Jacobi sweeps of the smoothing kinds; default 100, on a free surface 500.
     pub sweeps: usize,
     /// Share of the way to the target that each sweep goes, in 0..1.
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 1))]
@@ -66,14 +78,16 @@ pub struct RelaxParams {
 
 impl Default for RelaxParams {
     fn default() -> Self {
-        Self { kind: RelaxKind::Area, sweeps: 100, damping: 0.5 }
+        Self { kind: RelaxKind::Optimise, sweeps: 100, damping: 0.5 }
     }
 }
 
-/// Weights of the smoothing.
+/// How a pattern is relaxed: optimised, smoothed with one of three weights (the paper's), or solved for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RelaxKind {
+    /// An energy with barriers at the limits, densities and geometry together (PATTERN §3); needs a surface.
+    Optimise,
     /// Mean of the neighbours.
     Uniform,
     /// Mean of the centroids of the adjacent panels, weighted by their areas.
@@ -88,7 +102,7 @@ pub enum RelaxKind {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct LimitParams {
-    /// Shortest member, in metres; default 2 × section width.
+    /// Shortest member, in metres; default 2 × section width, without a structure a quarter of the target length.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("minimum" = 0))]
     pub min_edge_m: Option<f64>,
@@ -101,20 +115,29 @@ pub struct LimitParams {
     /// Most members at a node.
     #[schemars(extend("minimum" = 4))]
     pub max_valence: usize,
+    /// Fewest members at an inner node: 3 refuses nodes with two members; default 2, off.
+    #[schemars(extend("minimum" = 2, "maximum" = 4))]
+    pub min_valence: usize,
     /// Largest panel, in m²; no limit if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub max_panel_area_m2: Option<f64>,
+    /// Farthest that the boundary may lie from the pattern's, in metres; default a quarter of the target length.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("minimum" = 0))]
+    pub max_boundary_gap_m: Option<f64>,
 }
 
 impl Default for LimitParams {
     fn default() -> Self {
         Self {
             min_edge_m: None,
-            max_edge_factor: 1.75,
+            max_edge_factor: 2.0,
             min_angle_deg: 20.0,
             max_valence: 8,
+            min_valence: 2,
             max_panel_area_m2: None,
+            max_boundary_gap_m: None,
         }
     }
 }

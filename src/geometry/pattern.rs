@@ -44,6 +44,8 @@ pub struct Pattern {
     pub edges: Vec<[u32; 2]>,
     /// For each boundary loop of the domain, its dense vertices in order, counter-clockwise seen from above.
     pub loops: Vec<Vec<u32>>,
+    /// For each loop, the arc length along the domain's loop of each of its vertices, ascending over less than one turn, m.
+    pub along: Vec<Vec<f64>>,
     /// For each corner of the domain (loop by loop, in the domain's order): the dense vertex that takes it.
     pub corners: Vec<u32>,
     /// For each loop, which entries of `corners` lie on it (as a range `start..end`).

@@ -17,6 +17,13 @@ pub enum Rejection {
         /// The coarse vertices.
         vertices: Vec<u32>,
     },
+    /// Vertices with too many panels for the valence limit or for the angle there is, or too few at a corner (PATTERN §1).
+    Crowded {
+        /// The coarse vertices, ascending.
+        vertices: Vec<u32>,
+        /// Sum of the relative excesses.
+        excess: f64,
+    },
     /// A stretch of boundary has fewer vertices than the domain has corners there.
     CornerLost {
         /// The domain's corner.
@@ -62,7 +69,7 @@ impl Rejection {
     pub fn stage(&self) -> u8 {
         match self {
             Self::Folds { .. } | Self::OutsideDomain { .. } => 3,
-            Self::Flat { .. } | Self::Pinched { .. } | Self::CornerLost { .. } => 4,
+            Self::Flat { .. } | Self::Pinched { .. } | Self::Crowded { .. } | Self::CornerLost { .. } => 4,
             Self::TooManyFaces { .. } => 5,
             Self::NotFinite { .. } | Self::OtherLoops { .. } => 6,
         }
@@ -75,6 +82,7 @@ impl Rejection {
             Self::OutsideDomain { vertices, panels } => *vertices as f64 / *panels as f64,
             Self::Flat { faces, edges } => (faces.len() + edges.len()) as f64,
             Self::Pinched { vertices } => vertices.len() as f64,
+            Self::Crowded { excess, .. } => *excess,
             Self::CornerLost { .. } | Self::NotFinite { .. } | Self::OtherLoops { .. } => 1.0,
             Self::TooManyFaces { n, max } => libm::log(*n as f64 / (*max).max(1) as f64),
         }
@@ -88,6 +96,9 @@ impl fmt::Display for Rejection {
                 write!(f, "flat: {} faces, {} edges in a straight wall", faces.len(), edges.len())
             }
             Self::Pinched { vertices } => write!(f, "pinched: {} boundary vertices", vertices.len()),
+            Self::Crowded { vertices, .. } => {
+                write!(f, "crowded: {} vertices have too many or too few panels in every pattern", vertices.len())
+            }
             Self::CornerLost { corner } => write!(f, "corner {corner} finds no boundary vertex"),
             Self::OtherLoops { mesh, domain } => {
                 write!(f, "{mesh} boundary loops where the domain has {domain}")

@@ -93,7 +93,7 @@ impl Mesh {
 /// Runs all sweeps on a placed mesh. Corners stay, boundary vertices stay on their curves, the others on the surface; on a free
 /// surface all boundary vertices stay.
 ///
-/// With [`RelaxKind::ForceDensity`] the caller solves directly; no sweep is run here.
+/// With [`RelaxKind::Optimise`] and [`RelaxKind::ForceDensity`] no sweep is run here.
 pub fn relax(placed: &mut Placed, mesh: &Mesh, domain: &Domain, surface: &dyn Surface, params: &RelaxParams) {
     let mut sweep = Sweep::new(placed, mesh, domain, surface, params.damping);
     for _ in 0..params.sweeps {
@@ -101,7 +101,7 @@ pub fn relax(placed: &mut Placed, mesh: &Mesh, domain: &Domain, surface: &dyn Su
             RelaxKind::Uniform => sweep.uniform_targets(),
             RelaxKind::Area => sweep.area_targets(),
             RelaxKind::Cotangent => sweep.cotangent_targets(),
-            RelaxKind::ForceDensity => return,
+            RelaxKind::Optimise | RelaxKind::ForceDensity => return,
         }
         sweep.step();
     }

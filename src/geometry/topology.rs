@@ -2,8 +2,10 @@
 
 use super::coarse::{Coarse, corners_of, sides_of};
 use super::corners::LoopCorners;
+use super::limits::Limits;
 use super::rejection::Rejection;
 use crate::domain::Domain;
+use std::f64::consts::PI;
 
 /// Refuses meshes that no placing can make into a pattern on this domain.
 ///
@@ -115,4 +117,78 @@ fn wraps_smooth_loop(coarse: &Coarse<'_>, corners: &[LoopCorners], face: &[u32; 
         .filter(|&[u, v]| on_this(u) && on_this(v) && coarse.edge_faces[coarse.edge(u, v)] == 1)
         .count();
     on_boundary + 1 >= corners_of(face).count()
+}
+
+/// The angle that panels can share at each coarse vertex.
+pub struct Available<'a> {
+    coarse: &'a Coarse<'a>,
+    domain: &'a Domain,
+    /// For each vertex, the corner of the domain that it takes.
+    corner: Vec<Option<usize>>,
+}
+
+impl<'a> Available<'a> {
+    /// Collects the corners that are taken.
+    pub fn of(coarse: &'a Coarse<'a>, domain: &'a Domain, corners: &[LoopCorners]) -> Self {
+        let mut corner = vec![None; coarse.mesh.vertex_count];
+        for numbering in corners.iter().filter(|numbering| numbering.sharp) {
+            for (k, v) in numbering.numbers.clone().zip(&numbering.taken) {
+                if let Some(v) = v {
+                    corner[*v as usize] = Some(k);
+                }
+            }
+        }
+        Self { coarse, domain, corner }
+    }
+
+    /// Angle at a vertex, rad: 2π inside, π on a smooth boundary, the corner's own at a corner.
+    pub fn angle(&self, v: u32) -> f64 {
+        match self.corner[v as usize] {
+            Some(corner) => self.domain.corner_angle(corner),
+            None if self.coarse.on_loop[v as usize].is_some() => PI,
+            None => 2.0 * PI,
+        }
+    }
+
+    /// Fewest panels at a vertex: ⌊α/180°⌋ + 1 at a corner.
+    fn least_panels(&self, v: u32) -> u32 {
+        match self.corner[v as usize] {
+            Some(_) => (self.angle(v) / PI + 1e-9).floor() as u32 + 1,
+            None => 1,
+        }
+    }
+}
+
+/// Refuses meshes whose vertices break the limits in every pattern: too many panels for the valence or for the angle there is, too few at
+/// a corner or inside (PATTERN §1). The strips that end in a pole count with one row.
+pub fn reject_crowded(
+    coarse: &Coarse<'_>,
+    domain: &Domain,
+    corners: &[LoopCorners],
+    limits: &Limits,
+) -> Option<Rejection> {
+    let available = Available::of(coarse, domain, corners);
+    let mut is_pole = vec![false; coarse.mesh.vertex_count];
+    for face in coarse.mesh.faces.iter().filter(|face| face[0] == face[1]) {
+        is_pole[face[0] as usize] = true;
+    }
+    let excess = |v: u32| {
+        let panels = coarse.vertex_faces[v as usize];
+        let is_inner = coarse.on_loop[v as usize].is_none();
+        let valence = panels as usize + usize::from(!is_inner);
+        let angle = f64::from(panels) * limits.min_angle;
+        let too_many = valence as f64 / limits.max_valence as f64 - 1.0;
+        let too_narrow = angle / available.angle(v) - 1.0 - 1e-9;
+        let fewest = available.least_panels(v);
+        let too_few = 1.0 - f64::from(panels) / f64::from(fewest);
+        let lonely = if is_inner && !is_pole[v as usize] {
+            1.0 - valence as f64 / limits.min_valence as f64
+        } else {
+            0.0
+        };
+        too_many.max(too_narrow).max(too_few).max(lonely)
+    };
+    let vertices: Vec<u32> = (0..coarse.mesh.vertex_count as u32).filter(|&v| excess(v) > 0.0).collect();
+    let excess = vertices.iter().map(|&v| excess(v)).sum();
+    (!vertices.is_empty()).then_some(Rejection::Crowded { vertices, excess })
 }

@@ -1,86 +1,136 @@
-//! Turning folded panels over in plan, the boundary held (Garanzha, Kaporin, Kudryavtseva, Protais, Ray, Sokolov 2021,
-//! *Foldover-free maps in 50 lines of code*, ACM TOG 40(4)).
+//! Turning folded panels over in plan (Garanzha, Kaporin, Kudryavtseva, Protais, Ray, Sokolov 2021, *Foldover-free maps in 50 lines of
+//! code*, ACM TOG 40(4)), boundary vertices sliding along their sides or held.
 //!
-//! Every corner of a panel is a triangle with a map J from the corner of a square of the pattern's size. The energy
+//! Every corner of a panel is a triangle with a map J from the corner of a square of edge length ℓ. The energy
 //! Σ tr JᵀJ / χ(det J) + λ (1 + det² J) / χ(det J) with χ(D) = (D + √(ε² + D²)) / 2 is finite for folded corners too, and ε is
-//! lowered until none is left. Minimised by L-BFGS that starts from the inverse of the graph Laplacian.
+//! lowered until none is left. Boundary edges have ½ (d² + 1) / χ(d), d their arc length ÷ ℓ, so that vertices keep their order; inner
+//! vertices that are beyond a smooth loop, or nearly so, are driven back by w f², w doubling from round to round (PATTERN §3).
 
-use super::laplacian::{Laplacian, Weights};
+use super::optimise::descent::{Bounds, Energy, descend, preconditioner};
+use super::optimise::net::{Net, Places};
+use super::vector::Vec3;
 
 /// Weight λ of the part of the energy that asks for equal areas.
 const AREA_WEIGHT: f64 = 0.2;
-/// Rounds, each with its ε, and steps of L-BFGS in a round.
+/// Rounds, each with its ε, and steps of a round.
 const ROUNDS: usize = 40;
 const STEPS: usize = 12;
-/// Pairs that L-BFGS remembers.
-const MEMORY: usize = 6;
-/// Halvings of a step in the line search.
-const MAX_HALVINGS: usize = 30;
 /// A corner with at least this share of a square's determinant is unfolded well enough.
 const ENOUGH: f64 = 1e-3;
 /// Smallest ε.
 const LEAST_EPSILON: f64 = 1e-4;
 /// Steps of evening out.
 const EVENING_STEPS: usize = 8;
+/// How far inside a smooth loop a vertex is left alone, in ℓ.
+const MARGIN: f64 = 0.02;
+/// Largest weight w of vertices beyond a smooth loop.
+const MOST_WEIGHT: f64 = 1e4;
 
-/// A plan point, m.
-pub type Point = [f64; 2];
-
-/// The corner triangles that the free vertices can change.
-pub struct Corners {
-    /// `[corner, next, previous]` vertices.
-    triples: Vec<[u32; 3]>,
+/// The unknowns after untangling, and whether nothing is folded or outside.
+pub struct Untangled {
+    /// Unknowns of the net.
+    pub x: Vec<f64>,
+    /// Whether every corner turns left, boundary vertices keep their order, and all are inside.
+    pub is_clean: bool,
 }
 
-impl Corners {
-    /// All corners of the quads, and one of each triangle (last vertex twice), that have a free vertex.
-    pub fn of(quads: &[[u32; 4]], is_fixed: &[bool]) -> Self {
-        let mut triples = Vec::with_capacity(4 * quads.len());
-        for q in quads {
-            let corners = if q[2] == q[3] { 1 } else { 4 };
-            for i in 0..corners {
-                let previous = if corners == 1 { q[2] } else { q[(i + 3) % 4] };
-                let triple = [q[i], q[(i + 1) % 4], previous];
-                if triple.iter().any(|&v| !is_fixed[v as usize]) {
-                    triples.push(triple);
-                }
+/// Moves the vertices of a plan net until every corner turns left; leaves them where that is so already. `rest` is ℓ in the net's
+/// units. Gives up after a fixed number of steps: the result may still be folded.
+pub fn untangle(net: &Net<'_>, rest: f64) -> Untangled {
+    let mut flat = Flat::new(net, rest);
+    let mut x = net.start();
+    if flat.is_clean(&x) {
+        return Untangled { x, is_clean: true };
+    }
+    if let Some(factor) = preconditioner(net, &flat.places) {
+        let bounds = Bounds { iterations: STEPS, tolerance: 1e-4, rest };
+        for round in 0..ROUNDS {
+            let least = flat.least(&x).min(0.0);
+            flat.epsilon = (LEAST_EPSILON * LEAST_EPSILON + 0.04 * least * least).sqrt();
+            flat.outside_weight = (1u64 << round.min(40)) as f64;
+            flat.outside_weight = flat.outside_weight.min(MOST_WEIGHT);
+            descend(net, &mut flat, &factor, &mut x, bounds);
+            if flat.is_clean(&x) {
+                return Untangled { x, is_clean: true };
             }
         }
-        Self { triples }
+    }
+    let is_clean = flat.least(&x) > 0.0 && !flat.is_outside(&x);
+    Untangled { x, is_clean }
+}
+
+/// A few steps more down the same energy, where no corner is folded: panels come nearer to squares of edge length `rest`.
+pub fn even_out(net: &Net<'_>, rest: f64, mut x: Vec<f64>) -> Vec<f64> {
+    let mut flat = Flat::new(net, rest);
+    flat.place(&x);
+    if let Some(factor) = preconditioner(net, &flat.places) {
+        let bounds = Bounds { iterations: EVENING_STEPS, tolerance: 1e-4, rest };
+        descend(net, &mut flat, &factor, &mut x, bounds);
+    }
+    x
+}
+
+struct Flat<'a, 'b> {
+    net: &'a Net<'b>,
+    /// `[corner, next, previous]` vertices that count.
+    corners: Vec<[u32; 3]>,
+    rest: f64,
+    epsilon: f64,
+    outside_weight: f64,
+    places: Places,
+    by_point: Vec<Vec3>,
+}
+
+impl<'a, 'b> Flat<'a, 'b> {
+    fn new(net: &'a Net<'b>, rest: f64) -> Self {
+        let mut corners = Vec::with_capacity(4 * net.sheet.quads.len());
+        for quad in &net.sheet.quads {
+            let count = if quad[2] == quad[3] { 3 } else { 4 };
+            corners.extend((0..count).map(|i| [quad[i], quad[(i + 1) % count], quad[(i + count - 1) % count]]));
+        }
+        corners.retain(|corner| !net.is_silent[corner[0] as usize]);
+        let places = net.places();
+        let by_point = vec![[0.0; 3]; places.points.len()];
+        Self { net, corners, rest, epsilon: LEAST_EPSILON, outside_weight: 0.0, places, by_point }
     }
 
-    /// Whether some corner turns right or is flat.
-    pub fn are_tangled(&self, plan: &[Point]) -> bool {
-        self.triples.iter().any(|t| {
-            let (e, f) = arms(plan, t);
-            e[0] * f[1] - e[1] * f[0] <= 0.0
-        })
+    fn place(&mut self, x: &[f64]) {
+        self.net.place_in_plan(x, &mut self.places);
     }
 
-    fn least_determinant(&self, plan: &[Point], size: f64) -> f64 {
-        let scale = 1.0 / (size * size);
-        self.triples
-            .iter()
-            .map(|t| {
-                let (e, f) = arms(plan, t);
-                (e[0] * f[1] - e[1] * f[0]) * scale
-            })
-            .fold(f64::INFINITY, f64::min)
+    fn is_clean(&mut self, x: &[f64]) -> bool {
+        self.least(x) > ENOUGH && !self.is_outside(x)
     }
 
-    /// The energy, and its gradient by vertex.
-    fn energy(&self, plan: &[Point], size: f64, epsilon: f64, gradient: &mut [Point]) -> f64 {
-        gradient.fill([0.0; 2]);
-        let scale = 1.0 / (size * size);
+    fn is_outside(&mut self, x: &[f64]) -> bool {
+        self.place(x);
+        self.net.is_outside(x, &self.places)
+    }
+
+    /// The least determinant of a corner and, where the boundary slides, the least arc of a boundary edge.
+    fn least(&mut self, x: &[f64]) -> f64 {
+        self.place(x);
+        let scale = 1.0 / (self.rest * self.rest);
+        let determinants = self.corners.iter().map(|corner| {
+            let (e, f) = arms(&self.places.points, corner);
+            (e[0] * f[1] - e[1] * f[0]) * scale
+        });
+        let arcs = self.net.links.iter().map(|link| self.net.arc(x, link) / self.rest);
+        let least = |values: &mut dyn Iterator<Item = f64>| {
+            values.fold(f64::INFINITY, |least, v| if v.is_nan() { f64::NEG_INFINITY } else { least.min(v) })
+        };
+        least(&mut determinants.chain(arcs))
+    }
+
+    fn corner_energy(&mut self) -> f64 {
+        self.by_point.fill([0.0; 3]);
+        let scale = 1.0 / (self.rest * self.rest);
         let mut sum = 0.0;
-        for t in &self.triples {
-            let (e, f) = arms(plan, t);
-            let trace = (e[0] * e[0] + e[1] * e[1] + f[0] * f[0] + f[1] * f[1]) * scale;
+        for corner in &self.corners {
+            let (e, f) = arms(&self.places.points, corner);
+            let trace = ((e[0] * e[0] + e[1] * e[1]) + (f[0] * f[0] + f[1] * f[1])) * scale;
             let det = (e[0] * f[1] - e[1] * f[0]) * scale;
-            let root = (epsilon * epsilon + det * det).sqrt();
-            // χ = (D + √(ε² + D²))/2 without cancellation for D < 0.
-            let chi = if det >= 0.0 { 0.5 * (det + root) } else { 0.5 * epsilon * epsilon / (root - det) };
-            let slope = chi / root;
+            let (chi, slope) = bounded(det, self.epsilon);
             let above = trace + AREA_WEIGHT * (1.0 + det * det);
             sum += above / chi;
             let by_trace = 2.0 * scale / chi;
@@ -88,161 +138,67 @@ impl Corners {
             let ge = [by_trace * e[0] + by_det * f[1], by_trace * e[1] - by_det * f[0]];
             let gf = [by_trace * f[0] - by_det * e[1], by_trace * f[1] + by_det * e[0]];
             for k in 0..2 {
-                gradient[t[1] as usize][k] += ge[k];
-                gradient[t[2] as usize][k] += gf[k];
-                gradient[t[0] as usize][k] -= ge[k] + gf[k];
+                self.by_point[corner[1] as usize][k] += ge[k];
+                self.by_point[corner[2] as usize][k] += gf[k];
+                self.by_point[corner[0] as usize][k] -= ge[k] + gf[k];
+            }
+        }
+        sum
+    }
+
+    /// w f² of vertices beyond smooth loops; adds the gradient by position.
+    fn outside_energy(&mut self) -> f64 {
+        if self.outside_weight == 0.0 {
+            return 0.0;
+        }
+        let mut sum = 0.0;
+        for (v, depth, way) in self.net.beyond_smooth_loops(&self.places, MARGIN * self.rest) {
+            let f = depth / self.rest + MARGIN;
+            sum += self.outside_weight * f * f;
+            let by_depth = 2.0 * self.outside_weight * f / self.rest;
+            for k in 0..2 {
+                self.by_point[v as usize][k] += by_depth * way[k];
+            }
+        }
+        sum
+    }
+
+    fn arc_energy(&self, x: &[f64], gradient: &mut [f64]) -> f64 {
+        let mut sum = 0.0;
+        for link in &self.net.links {
+            let d = self.net.arc(x, link) / self.rest;
+            let (chi, slope) = bounded(d, self.epsilon);
+            let above = d * d + 1.0;
+            sum += 0.5 * above / chi;
+            let by_arc = 0.5 * (2.0 * d - above * slope / chi) / chi / self.rest;
+            for (v, sign) in [(link.from, -1.0), (link.to, 1.0)] {
+                if let Some((at, _)) = self.net.slide(&self.places, v) {
+                    gradient[at] += sign * by_arc;
+                }
             }
         }
         sum
     }
 }
 
-fn arms(plan: &[Point], [o, u, v]: &[u32; 3]) -> (Point, Point) {
-    let (o, u, v) = (plan[*o as usize], plan[*u as usize], plan[*v as usize]);
+impl Energy for Flat<'_, '_> {
+    fn value(&mut self, x: &mut [f64], gradient: &mut [f64]) -> f64 {
+        self.place(x);
+        let sum = self.corner_energy() + self.outside_energy();
+        self.net.pull(&self.places, &self.by_point, gradient, true);
+        let sum = sum + self.arc_energy(x, gradient);
+        if sum.is_finite() { sum } else { f64::INFINITY }
+    }
+}
+
+/// χ(D) = (D + √(ε² + D²))/2, without cancellation for D < 0, and χ′/χ · χ.
+fn bounded(d: f64, epsilon: f64) -> (f64, f64) {
+    let root = (epsilon * epsilon + d * d).sqrt();
+    let chi = if d >= 0.0 { 0.5 * (d + root) } else { 0.5 * epsilon * epsilon / (root - d) };
+    (chi, chi / root)
+}
+
+fn arms(points: &[Vec3], [o, u, v]: &[u32; 3]) -> ([f64; 2], [f64; 2]) {
+    let (o, u, v) = (points[*o as usize], points[*u as usize], points[*v as usize]);
     ([u[0] - o[0], u[1] - o[1]], [v[0] - o[0], v[1] - o[1]])
-}
-
-/// Moves the free vertices until every corner turns left; does nothing if that is so already. `size` is the edge length of
-/// the square that has a panel's mean area, m. Gives up after a fixed number of steps: the result may still be folded.
-pub fn untangle(plan: &mut [Point], corners: &Corners, edges: &[[u32; 2]], is_fixed: &[bool], size: f64) {
-    if !corners.are_tangled(plan) {
-        return;
-    }
-    let Some(laplacian) = Laplacian::new(edges, Weights::Equal, is_fixed) else { return };
-    for _ in 0..ROUNDS {
-        let least = corners.least_determinant(plan, size);
-        if least > ENOUGH || least.is_nan() {
-            return;
-        }
-        let epsilon = (LEAST_EPSILON * LEAST_EPSILON + 0.04 * least.min(0.0) * least.min(0.0)).sqrt();
-        descend(plan, corners, &laplacian, is_fixed, size, epsilon, STEPS);
-    }
-}
-
-/// A few steps more down the same energy, where no corner is folded: panels come nearer to squares of edge length `size`.
-pub fn even_out(plan: &mut [Point], corners: &Corners, edges: &[[u32; 2]], is_fixed: &[bool], size: f64) {
-    if let Some(laplacian) = Laplacian::new(edges, Weights::Equal, is_fixed) {
-        descend(plan, corners, &laplacian, is_fixed, size, LEAST_EPSILON, EVENING_STEPS);
-    }
-}
-
-/// One difference of positions and of gradients, and 1 / (s · y).
-struct Pair {
-    s: Vec<Point>,
-    y: Vec<Point>,
-    rho: f64,
-}
-
-/// L-BFGS (Nocedal, Wright, *Numerical Optimization*, algorithms 7.4 and 7.5) with backtracking.
-fn descend(
-    plan: &mut [Point],
-    corners: &Corners,
-    laplacian: &Laplacian<'_>,
-    is_fixed: &[bool],
-    size: f64,
-    epsilon: f64,
-    steps: usize,
-) {
-    let n = plan.len();
-    let mut gradient = vec![[0.0; 2]; n];
-    let mut energy = corners.energy(plan, size, epsilon, &mut gradient);
-    hold(&mut gradient, is_fixed);
-    let mut next_gradient = gradient.clone();
-    let mut next = plan.to_vec();
-    let mut pairs: Vec<Pair> = Vec::new();
-    for _ in 0..steps {
-        let direction = direction(&gradient, &pairs, laplacian);
-        let slope = inner(&direction, &gradient);
-        if slope.is_nan() || slope >= 0.0 {
-            return;
-        }
-        // The first step of a round has no scale of its own: it moves no vertex by more than a panel.
-        let longest = direction.iter().map(|d| d[0].abs().max(d[1].abs())).fold(0.0, f64::max);
-        let mut step = if pairs.is_empty() { (size / longest).min(1.0) } else { 1.0 };
-        let mut lower = None;
-        for _ in 0..MAX_HALVINGS {
-            for i in 0..n {
-                next[i] = [plan[i][0] + step * direction[i][0], plan[i][1] + step * direction[i][1]];
-            }
-            let found = corners.energy(&next, size, epsilon, &mut next_gradient);
-            if found <= energy + 1e-4 * step * slope {
-                lower = Some(found);
-                break;
-            }
-            step *= 0.5;
-        }
-        let Some(found) = lower else { return };
-        hold(&mut next_gradient, is_fixed);
-        let s: Vec<Point> = direction.iter().map(|d| [step * d[0], step * d[1]]).collect();
-        let y: Vec<Point> =
-            next_gradient.iter().zip(&gradient).map(|(a, b)| [a[0] - b[0], a[1] - b[1]]).collect();
-        let product = inner(&s, &y);
-        if product > 0.0 {
-            if pairs.len() == MEMORY {
-                pairs.remove(0);
-            }
-            pairs.push(Pair { s, y, rho: 1.0 / product });
-        }
-        plan.copy_from_slice(&next);
-        std::mem::swap(&mut gradient, &mut next_gradient);
-        let gain = energy - found;
-        energy = found;
-        if gain <= 1e-4 * energy {
-            return;
-        }
-    }
-}
-
-/// −H g by the two-loop recursion, H₀ = γ L⁻¹.
-fn direction(gradient: &[Point], pairs: &[Pair], laplacian: &Laplacian<'_>) -> Vec<Point> {
-    let mut q = gradient.to_vec();
-    let mut alphas = Vec::with_capacity(pairs.len());
-    for pair in pairs.iter().rev() {
-        let alpha = pair.rho * inner(&pair.s, &q);
-        add_scaled(&mut q, &pair.y, -alpha);
-        alphas.push(alpha);
-    }
-    precondition(&mut q, laplacian);
-    if let Some(last) = pairs.last() {
-        let mut hy = last.y.clone();
-        precondition(&mut hy, laplacian);
-        let gamma = 1.0 / (last.rho * inner(&last.y, &hy));
-        for point in &mut q {
-            *point = [gamma * point[0], gamma * point[1]];
-        }
-    }
-    for (pair, alpha) in pairs.iter().zip(alphas.into_iter().rev()) {
-        let beta = pair.rho * inner(&pair.y, &q);
-        add_scaled(&mut q, &pair.s, alpha - beta);
-    }
-    for point in &mut q {
-        *point = [-point[0], -point[1]];
-    }
-    q
-}
-
-fn precondition(values: &mut [Point], laplacian: &Laplacian<'_>) {
-    for k in 0..2 {
-        let mut column = vec![0.0; values.len()];
-        laplacian.solve(&mut column, |_| 0.0, |v| values[v][k]);
-        for (value, c) in values.iter_mut().zip(column) {
-            value[k] = c;
-        }
-    }
-}
-
-fn hold(gradient: &mut [Point], is_fixed: &[bool]) {
-    for (g, _) in gradient.iter_mut().zip(is_fixed).filter(|(_, fixed)| **fixed) {
-        *g = [0.0; 2];
-    }
-}
-
-fn inner(a: &[Point], b: &[Point]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a[0] * b[0] + a[1] * b[1]).sum()
-}
-
-fn add_scaled(a: &mut [Point], b: &[Point], k: f64) {
-    for (a, b) in a.iter_mut().zip(b) {
-        *a = [a[0] + k * b[0], a[1] + k * b[1]];
-    }
 }

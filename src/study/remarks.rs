@@ -1,7 +1,6 @@
 //! What is allowed, but would make a run worthless, as the real sizes of domain and surface and all supports together show.
 
 use super::Study;
-use crate::geometry::params::Density;
 use crate::structure::params::Direction;
 
 /// A surface this much larger than the domain is more likely in another unit.
@@ -40,13 +39,10 @@ impl Study {
 
     fn long_members(&self) -> Option<String> {
         let least = self.pattern.limits.min_edge_m?;
-        let side = match (self.pattern.density, self.pattern.target_length_m) {
-            (Density::TargetLength, Some(length)) => length,
-            _ => (self.domain.area() / self.pattern.panels as f64).sqrt(),
-        };
+        let side = self.limits.target_length;
         (least > LONG * side).then(|| {
             format!(
-                "pattern.limits.min_edge_m = {least} is {:.2} of the panels' mean side, about {side:.3} m in plan: hardly any \
+                "pattern.limits.min_edge_m = {least} is {:.2} of the panels' mean side, about {side:.3} m: hardly any \
                  pattern keeps that; set it lower, or ask for fewer panels (its default is 2 × the width of the section; of a round \
                  one 2 × its largest height)",
                 least / side

@@ -14,6 +14,14 @@ pub trait HeightFunction: Send + Sync {
         }
     }
 
+    /// Sets the heights of many points, and the slopes there.
+    fn lift_all_with_slopes(&self, points: &mut [[f64; 3]], slopes: &mut [[f64; 2]]) {
+        self.lift_all(points);
+        for (point, slope) in points.iter().zip(slopes) {
+            *slope = self.gradient(point[0], point[1]);
+        }
+    }
+
     /// (∂z/∂x, ∂z/∂y).
     fn gradient(&self, x: f64, y: f64) -> [f64; 2];
 
@@ -45,6 +53,10 @@ impl<F: HeightFunction> Surface for HeightSurface<F> {
 
     fn project_all(&self, points: &mut [[f64; 3]]) {
         self.0.lift_all(points);
+    }
+
+    fn lift_all(&self, points: &mut [[f64; 3]], slopes: &mut [[f64; 2]]) {
+        self.0.lift_all_with_slopes(points, slopes);
     }
 
     fn normal(&self, [x, y, _]: [f64; 3]) -> [f64; 3] {

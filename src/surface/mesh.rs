@@ -112,6 +112,11 @@ impl Surface for MeshSurface {
         self.normals[self.tree.closest(point).triangle as usize]
     }
 
+    fn foot(&self, point: [f64; 3]) -> ([f64; 3], [f64; 3]) {
+        let closest = self.tree.closest(point);
+        (closest.point, self.normals[closest.triangle as usize])
+    }
+
     fn extent(&self) -> String {
         let [[x0, y0], [x1, y1]] = self.bounds;
         let upright = x0 == x1 || y0 == y1;

@@ -70,6 +70,21 @@ pub trait Surface: Send + Sync {
         true
     }
 
+    /// The point that [`Surface::project`] gives, and the unit normal there.
+    fn foot(&self, point: [f64; 3]) -> ([f64; 3], [f64; 3]) {
+        let foot = self.project(point);
+        (foot, self.normal(foot))
+    }
+
+    /// Sets the heights of many points of a height surface, and its slopes (∂z/∂x, ∂z/∂y) there.
+    fn lift_all(&self, points: &mut [[f64; 3]], slopes: &mut [[f64; 2]]) {
+        self.project_all(points);
+        for (point, slope) in points.iter().zip(slopes) {
+            let n = self.normal(*point);
+            *slope = [-n[0] / n[2], -n[1] / n[2]];
+        }
+    }
+
     /// [`Surface::project`] of many points: one virtual call for all of them.
     fn project_all(&self, points: &mut [[f64; 3]]) {
         for point in points {

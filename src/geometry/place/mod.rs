@@ -7,9 +7,10 @@ mod polar;
 use super::boundary::BoundaryLoop;
 use super::dense::{Dense, Edges};
 use super::laplacian::{Laplacian, Weights};
-use super::pattern::Panel;
+use super::optimise::net::Net;
+use super::optimise::{Ground, Sheet};
 use super::rejection::Rejection;
-use super::untangle::{Corners, even_out, untangle};
+use super::untangle::{even_out, untangle};
 use crate::domain::{BoundaryLoop as Curve, Domain};
 use crate::surface::{Surface, SurfaceKind};
 
@@ -59,7 +60,7 @@ pub fn place(
     // measured too short. A free form is in balance as it is.
     let is_crowded = domain.loops.len() > 2 && surface.kind() != SurfaceKind::Free;
     if folds == Folds::Unfold || is_crowded {
-        unfold(&mut shape, domain, dense, edges, is_crowded);
+        unfold(&mut shape, domain, surface, dense, loops, is_crowded);
     }
     let positions =
         lift(domain, surface, edges, loops, shape.plan, &shape.along).ok_or_else(|| failed.clone())?;
@@ -70,18 +71,28 @@ pub fn place(
     }
 }
 
-/// Turns folded corners over where the linear solves left some, and evens the pattern out if asked for.
-fn unfold(shape: &mut Shape, domain: &Domain, dense: &Dense, edges: &Edges, evened: bool) {
-    let mut is_fixed = vec![false; dense.vertex_count];
-    for &v in dense.loops.iter().flatten() {
-        is_fixed[v as usize] = true;
-    }
-    let quads: Vec<[u32; 4]> = dense.panels.iter().map(Panel::as_quad).collect();
-    let size = (domain.area() / quads.len() as f64).sqrt();
-    let corners = Corners::of(&quads, &is_fixed);
-    untangle(&mut shape.plan, &corners, &edges.list, &is_fixed, size);
+/// Turns folded corners over where the linear solves left some, the boundary held, and evens the pattern out if asked for.
+fn unfold(
+    shape: &mut Shape,
+    domain: &Domain,
+    surface: &dyn Surface,
+    dense: &Dense,
+    loops: &[BoundaryLoop],
+    evened: bool,
+) {
+    let ground = Ground::new(domain, surface, (domain.area() / dense.panels.len() as f64).sqrt());
+    let points = shape.plan.iter().map(|&[x, y]| ground.local([x, y, 0.0])).collect();
+    let sheet = Sheet::placed(&ground, dense.clone(), points, loops, &shape.along);
+    let net = Net::new(&ground, &sheet, 2, true);
+    let mut found = untangle(&net, 1.0).x;
     if evened {
-        even_out(&mut shape.plan, &corners, &edges.list, &is_fixed, size);
+        found = even_out(&net, 1.0, found);
+    }
+    let mut places = net.places();
+    net.place_in_plan(&found, &mut places);
+    for (plan, point) in shape.plan.iter_mut().zip(places.points) {
+        let [x, y, _] = ground.global(point);
+        *plan = [x, y];
     }
 }
 

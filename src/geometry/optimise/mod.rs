@@ -1,0 +1,361 @@
+//! Geometry and density chosen together (PATTERN §3): an energy of angles and lengths with barriers at the limits of a pattern that can
+//! be built, minimised on coarse patterns whose densities follow their shape, then on the pattern itself.
+//!
+//! ```text
+//! placed (N/4) → [coarse descent → lengths → rows]³ → pattern (N) → Q1, Q2, Q3 until the limits hold → other rows
+//! ```
+//!
+//! Everything is a function of the canonical mesh: canonical arrays, one order of sums, no chance.
+
+pub mod descent;
+mod energy;
+mod ground;
+pub mod net;
+mod resample;
+mod rows;
+mod sheet;
+
+pub use ground::Ground;
+pub use sheet::{Held, Sheet};
+
+use super::check;
+use super::coarse::Coarse;
+use super::corners::LoopCorners;
+use super::dense::panel_count;
+use super::density::{self, Fineness};
+use super::limits::{self, Limits};
+use super::pattern::Pattern;
+use super::rejection::Rejection;
+use super::sparse::Factor;
+use super::untangle::untangle;
+use super::vector::Vec3;
+use crate::domain::Domain;
+use crate::surface::Surface;
+use descent::{Bounds, Energy, descend, preconditioner};
+use energy::Weights;
+use net::{Net, Places};
+use rows::Rungs;
+
+/// ℓ, what edges are drawn to, in target lengths.
+const REST: f64 = 1.02;
+/// By how much the barriers keep off the limits of the shortest and the longest edge, the smallest angle and the gap.
+const SHORT_RESERVE: f64 = 1.06;
+const LONG_RESERVE: f64 = 0.95;
+const ANGLE_RESERVE: f64 = 1.075;
+const GAP_RESERVE: f64 = 0.95;
+/// The coarse pattern has N divided by this.
+const COARSENESS: f64 = 4.0;
+/// Times that rows are chosen anew.
+const ROUNDS: usize = 3;
+/// Times that strips with too long rungs get one row more.
+const REPAIRS: usize = 3;
+
+/// One descent: weights of angles and lengths, half the barriers' power, most steps, relative gain that counts as small.
+struct Stage {
+    angle: f64,
+    length: f64,
+    half_power: u32,
+    iterations: usize,
+    tolerance: f64,
+}
+
+const COARSE: Stage = Stage { angle: 0.2, length: 0.2, half_power: 8, iterations: 25, tolerance: 1e-3 };
+/// Q1 always, Q2 and Q3 while a limit is broken.
+const FINE: [Stage; 3] = [
+    Stage { angle: 0.2, length: 0.2, half_power: 8, iterations: 40, tolerance: 3e-4 },
+    Stage { angle: 0.05, length: 0.03, half_power: 8, iterations: 60, tolerance: 3e-4 },
+    Stage { angle: 0.02, length: 0.01, half_power: 16, iterations: 60, tolerance: 3e-4 },
+];
+
+/// What a pattern is made from.
+#[derive(Clone, Copy)]
+pub struct Task<'a> {
+    /// The coarse mesh.
+    pub coarse: &'a Coarse<'a>,
+    /// Its domain.
+    pub domain: &'a Domain,
+    /// Its surface, which is not free.
+    pub surface: &'a dyn Surface,
+    /// The domain's corners on it.
+    pub corners: &'a [LoopCorners],
+    /// What the pattern is to keep.
+    pub limits: &'a Limits,
+    /// Rows by a number of panels or by a width in metres.
+    pub fineness: Fineness,
+    /// N, what coarse patterns are a quarter of.
+    pub panels: f64,
+    /// Most panels.
+    pub max_faces: usize,
+}
+
+/// Makes patterns for one task.
+pub struct Optimiser<'a> {
+    task: &'a Task<'a>,
+    ground: &'a Ground<'a>,
+    caps: Vec<u32>,
+}
+
+/// A sheet after its last descent.
+struct Tried {
+    sheet: Sheet,
+    pattern: Pattern,
+    /// Whether nothing is folded, outside or out of order.
+    is_clean: bool,
+    /// Whether it keeps all limits.
+    is_good: bool,
+}
+
+impl<'a> Optimiser<'a> {
+    /// An optimiser in the ground's units, which are target lengths.
+    pub fn new(task: &'a Task<'a>, ground: &'a Ground<'a>) -> Self {
+        Self { caps: rows::caps(task), task, ground }
+    }
+
+    /// Rows of the pattern itself, measured on a placed sheet of any densities.
+    ///
+    /// # Errors
+    /// [`Rejection::TooManyFaces`].
+    pub fn pattern_rows(&self, sheet: &Sheet) -> Result<Vec<u32>, Rejection> {
+        let rows = self.rows(sheet, Rungs::mean, None);
+        self.check_count(&rows)?;
+        Ok(rows)
+    }
+
+    /// The pattern from a sheet of about N/4 panels, placed, not smoothed.
+    ///
+    /// # Errors
+    /// [`Rejection::TooManyFaces`]. Limits that are not kept, folds and vertices outside are no errors here.
+    pub fn run(&self, placed: Sheet) -> Result<Pattern, Rejection> {
+        let shaped = self.shape_coarsely(placed);
+        let rows = self.pattern_rows(&shaped)?;
+        let mut tried = self.try_rows(&shaped, &rows);
+        if !tried.is_clean {
+            let doubled: Vec<u32> = shaped.dense_parts(self.task.coarse).iter().map(|n| 2 * n).collect();
+            if self.check_count(&doubled).is_ok() {
+                tried = self.try_rows(&shaped, &doubled);
+            }
+        }
+        if tried.is_good {
+            return Ok(tried.pattern);
+        }
+        let from = if tried.is_clean { &tried.sheet } else { &shaped };
+        let rows = self.rows(from, Rungs::middle, None);
+        if self.check_count(&rows).is_ok() {
+            let other = self.try_rows(from, &rows);
+            if other.is_good {
+                return Ok(other.pattern);
+            }
+        }
+        Ok(self.repair(tried))
+    }
+
+    /// Coarse descents, each on rows that follow the shape found before.
+    fn shape_coarsely(&self, placed: Sheet) -> Sheet {
+        let mut sheet = placed;
+        let mut before: Option<Sheet> = None;
+        for round in 0..ROUNDS {
+            let coarseness = (self.task.panels / sheet.quads.len() as f64).sqrt();
+            let (found, is_clean) = self.descend(sheet, &COARSE, coarseness);
+            if !is_clean {
+                return before.unwrap_or(found);
+            }
+            if round + 1 == ROUNDS {
+                return found;
+            }
+            sheet = resample::resample(self.task.coarse, self.ground, &found, &self.coarse_rows(&found));
+            before = Some(found);
+        }
+        sheet
+    }
+
+    /// Rows of a coarse pattern of about N/4 panels, measured on a sheet of any densities.
+    pub fn coarse_rows(&self, sheet: &Sheet) -> Vec<u32> {
+        let rungs = rows::rungs(self.task.coarse, sheet);
+        let lengths: Vec<f64> = rungs.iter().map(Rungs::mean).collect();
+        let bounds =
+            rows::bounds(self.task.coarse, self.ground, sheet, self.task.limits, &self.caps, COARSENESS.sqrt());
+        density::choose(self.task.coarse, &lengths, Fineness::Panels(self.task.panels / COARSENESS), &bounds)
+    }
+
+    /// Rows of the pattern itself; `at_least` besides what corners and sides ask for.
+    fn rows(&self, sheet: &Sheet, length: fn(&Rungs) -> f64, at_least: Option<&[u32]>) -> Vec<u32> {
+        let rungs = rows::rungs(self.task.coarse, sheet);
+        let lengths: Vec<f64> = rungs.iter().map(length).collect();
+        let mut bounds = rows::bounds(self.task.coarse, self.ground, sheet, self.task.limits, &self.caps, 1.0);
+        if let Some(at_least) = at_least {
+            bounds.least.iter_mut().zip(at_least).for_each(|(least, more)| *least = (*least).max(*more));
+        }
+        let fineness = match self.task.fineness {
+            Fineness::Panels(panels) => Fineness::Panels(panels),
+            Fineness::Width(width) => Fineness::Width(width / self.task.limits.target_length),
+        };
+        density::choose(self.task.coarse, &lengths, fineness, &bounds)
+    }
+
+    fn check_count(&self, rows: &[u32]) -> Result<(), Rejection> {
+        let n = panel_count(self.task.coarse, rows);
+        let max = self.task.max_faces;
+        if n > max { Err(Rejection::TooManyFaces { n, max }) } else { Ok(()) }
+    }
+
+    /// The sheet with other rows, through Q1 to Q3 or as far as the limits ask.
+    fn try_rows(&self, from: &Sheet, rows: &[u32]) -> Tried {
+        let sheet = resample::resample(self.task.coarse, self.ground, from, rows);
+        let sheet = self.untangled(sheet);
+        let (stations, mut is_clean, mut is_good) = {
+            let mut run = Run::new(self.ground, &sheet);
+            let (mut is_clean, mut is_good) = (false, false);
+            let mut state = None;
+            for stage in &FINE {
+                is_clean = run.stage(stage, self.task.limits, 1.0);
+                let found = run.net.state(run.x.clone());
+                is_good = is_clean && self.keeps_limits(&self.pattern(&sheet, &found));
+                state = Some(found);
+                if is_good || !is_clean {
+                    break;
+                }
+            }
+            (state, is_clean, is_good)
+        };
+        let mut sheet = sheet;
+        if let Some(stations) = stations {
+            sheet.set(stations);
+        } else {
+            (is_clean, is_good) = (false, false);
+        }
+        let pattern = self.pattern(&sheet, &(sheet.points.clone(), sheet.stations()));
+        Tried { sheet, pattern, is_clean, is_good }
+    }
+
+    /// At most three times, strips with a rung that is too long for their rows get one more; the last pattern that keeps the limits, or
+    /// the one that came.
+    fn repair(&self, tried: Tried) -> Pattern {
+        let pattern = tried.pattern.clone();
+        let mut last = tried;
+        for _ in 0..REPAIRS {
+            let longest = LONG_RESERVE * self.task.limits.max_edge / self.task.limits.target_length;
+            let parts = last.sheet.dense_parts(self.task.coarse);
+            let rungs = rows::rungs(self.task.coarse, &last.sheet);
+            let more = |s: usize| {
+                let is_short_of_rows = rungs[s].most / f64::from(parts[s]) > longest;
+                if is_short_of_rows { (parts[s] + 1).min(self.caps[s]) } else { 1 }
+            };
+            let at_least: Vec<u32> = (0..parts.len()).map(more).collect();
+            if !last.is_clean || at_least.iter().all(|&n| n == 1) {
+                break;
+            }
+            let rows = self.rows(&last.sheet, Rungs::mean, Some(&at_least));
+            if self.check_count(&rows).is_err() {
+                break;
+            }
+            last = self.try_rows(&last.sheet, &rows);
+            if last.is_good {
+                return last.pattern;
+            }
+        }
+        pattern
+    }
+
+    /// Untangled in plan where needed, then one descent; whether nothing is folded.
+    fn descend(&self, sheet: Sheet, stage: &Stage, coarseness: f64) -> (Sheet, bool) {
+        let mut sheet = self.untangled(sheet);
+        let (state, is_clean) = {
+            let mut run = Run::new(self.ground, &sheet);
+            let is_clean = run.stage(stage, self.task.limits, coarseness);
+            (run.net.state(run.x), is_clean)
+        };
+        sheet.set(state);
+        (sheet, is_clean)
+    }
+
+    fn untangled(&self, mut sheet: Sheet) -> Sheet {
+        let rest = REST * (self.task.panels / sheet.quads.len() as f64).sqrt();
+        let state = {
+            let net = Net::new(self.ground, &sheet, 2, false);
+            let start = net.start();
+            let found = untangle(&net, rest);
+            (found.x != start).then(|| net.state(found.x))
+        };
+        if let Some(state) = state {
+            sheet.set(state);
+        }
+        sheet
+    }
+
+    fn keeps_limits(&self, pattern: &Pattern) -> bool {
+        check::check(pattern, self.task.domain, self.task.surface).is_ok()
+            && limits::excesses(pattern, self.task.limits).iter().all(|limit| limit.excess <= 0.0)
+    }
+
+    fn pattern(&self, sheet: &Sheet, (points, along): &(Vec<Vec3>, Vec<Vec<f64>>)) -> Pattern {
+        sheet.pattern(self.task, self.ground, points, along)
+    }
+}
+
+/// A sheet on its way down: its unknowns and the factor of its Laplacian.
+struct Run<'a> {
+    net: Net<'a>,
+    x: Vec<f64>,
+    factor: Option<Factor>,
+    places: Places,
+    by_point: Vec<Vec3>,
+}
+
+impl<'a> Run<'a> {
+    fn new(ground: &'a Ground<'a>, sheet: &'a Sheet) -> Self {
+        let net = Net::new(ground, sheet, if ground.is_height() { 2 } else { 3 }, false);
+        let mut x = net.start();
+        let mut places = net.places();
+        net.place(&mut x, &mut places);
+        let factor = preconditioner(&net, &places);
+        let by_point = vec![[0.0; 3]; places.points.len()];
+        Self { net, x, factor, places, by_point }
+    }
+
+    /// One descent; whether the energy is finite.
+    fn stage(&mut self, stage: &Stage, limits: &Limits, coarseness: f64) -> bool {
+        let unit = limits.target_length / coarseness;
+        let sin = libm::sin((ANGLE_RESERVE * limits.min_angle).min(std::f64::consts::FRAC_PI_2));
+        let weights = Weights {
+            angle: stage.angle,
+            length: stage.length,
+            half_power: stage.half_power,
+            rest: REST * coarseness,
+            range: [SHORT_RESERVE * limits.min_edge / unit, LONG_RESERVE * limits.max_edge / unit],
+            sin_squared: sin * sin,
+            gap: GAP_RESERVE * limits.max_gap / unit,
+        };
+        let Some(factor) = &self.factor else { return false };
+        let bounds = Bounds { iterations: stage.iterations, tolerance: stage.tolerance, rest: weights.rest };
+        let mut energy =
+            Shape { net: &self.net, weights, places: &mut self.places, by_point: &mut self.by_point };
+        descend(&self.net, &mut energy, factor, &mut self.x, bounds).is_finite()
+    }
+}
+
+struct Shape<'a, 'b> {
+    net: &'a Net<'b>,
+    weights: Weights,
+    places: &'a mut Places,
+    by_point: &'a mut Vec<Vec3>,
+}
+
+impl Energy for Shape<'_, '_> {
+    fn value(&mut self, x: &mut [f64], gradient: &mut [f64]) -> f64 {
+        self.net.place(x, self.places);
+        if self.net.is_outside(x, self.places) {
+            if std::env::var("QDBG").is_ok() { eprintln!("outside: links {} of {}", self.net.links.iter().filter(|l| self.net.arc(x, l) <= 0.0).count(), self.net.links.len()); }
+            return f64::INFINITY;
+        }
+        let sum = energy::shape(self.net, self.places, &self.weights, self.by_point);
+        if !sum.is_finite() {
+            return f64::INFINITY;
+        }
+        self.net.pull(self.places, self.by_point, gradient, false);
+        sum + energy::gaps(self.net, x, self.places, &self.weights, gradient)
+    }
+
+    fn make_tangential(&self, direction: &mut [f64]) {
+        self.net.make_tangential(self.places, direction);
+    }
+}
