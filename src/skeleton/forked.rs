@@ -1,6 +1,7 @@
 //! From a medial axis with forks to a layout: two quads a branch between forks, one a leaf.
 
-use super::graph::{Branch, End, Fork, Graph, Slot, plan, stretch};
+use super::forkless::shoulders;
+use super::graph::{Branch, End, Fork, Graph, Slot, along, is_long, plan, stretch};
 use super::layout::Layout;
 use super::triangulation::{Site, distance};
 use crate::domain::Domain;
@@ -42,7 +43,8 @@ fn slot(graph: &Graph, fork: usize, wanted: impl Fn(&Slot) -> bool) -> Option<(&
     Some((found, found.ring.iter().position(wanted)?, found.ring.len()))
 }
 
-/// The quad of a leaf: fork, boundary point, tip, boundary point.
+/// The quad of a leaf: fork, boundary point, tip, boundary point; of a long one with a smooth end two quads beside the axis, whose
+/// end is the boundary between the points where it has turned by 45°.
 fn leaf(
     layout: &mut Layout,
     vertices: &Vertices,
@@ -52,9 +54,24 @@ fn leaf(
     f: usize,
     tip: Site,
 ) {
-    let Some((_, i, n)) = slot(graph, f, |s| s.branch == b) else { return };
-    let tip = layout.on_boundary(domain, tip);
-    layout.faces.push([vertices.forks[&f], vertices.sites[&(f, i)], tip, vertices.sites[&(f, (i + 1) % n)]]);
+    let Some((fork, i, n)) = slot(graph, f, |s| s.branch == b) else { return };
+    let before = [vertices.forks[&f], vertices.sites[&(f, i)], vertices.sites[&(f, (i + 1) % n)]];
+    let end = layout.on_boundary(domain, tip);
+    if is_long(domain, fork, i, tip) {
+        let [right, left] = ends_of_sides(domain, [fork.ring[i].site, fork.ring[(i + 1) % n].site], tip);
+        let after = [end, layout.on_boundary(domain, right), layout.on_boundary(domain, left)];
+        add_pair(layout, before, after);
+    } else {
+        layout.faces.push([before[0], before[1], end, before[2]]);
+    }
+}
+
+/// Where the right and the left side of a long leaf end: where the boundary has turned by 45°, or not far from the tip.
+fn ends_of_sides(domain: &Domain, [right, left]: [Site; 2], tip: Site) -> [Site; 2] {
+    let [before, after] = shoulders(domain, tip);
+    let fits = stretch(domain, before, tip) < 0.8 * stretch(domain, right, tip)
+        && stretch(domain, tip, after) < 0.8 * stretch(domain, tip, left);
+    if fits { [before, after] } else { [along(domain, right, tip, 0.7), along(domain, tip, left, 0.3)] }
 }
 
 /// The quads on both sides of a branch between forks, with as many stations in between as corners and simplicity ask for.

@@ -65,23 +65,25 @@ pub(super) fn path(domain: &Domain, branch: &Branch, [start, end]: [Site; 2]) ->
     one_quad(domain, sites)
 }
 
-/// The points of the outer loop before and after a smooth end at which the boundary has turned by 45°.
-fn shoulders(domain: &Domain, tip: Site) -> [Site; 2] {
+/// The points of a loop before and after a smooth end, with the domain on the left, at which the boundary has turned by 45°.
+pub(super) fn shoulders(domain: &Domain, tip: Site) -> [Site; 2] {
     const STEPS: usize = 2000;
-    let outer = &domain.loops[0];
+    let outer = &domain.loops[tip.loop_number];
     let length = outer.length();
     let heading = |s: f64| {
         let t = outer.tangent(s);
         libm::atan2(t[1], t[0])
     };
     let there = heading(tip.s);
+    let onward = if tip.loop_number == 0 { 1.0 } else { -1.0 };
     [-1.0, 1.0].map(|sign| {
-        let turned = |i: &usize| {
-            let turn = sign * (heading(tip.s + sign * *i as f64 / STEPS as f64 * length) - there);
+        let at = |i: usize| tip.s + onward * sign * i as f64 / STEPS as f64 * length;
+        let turned = |&i: &usize| {
+            let turn = sign * (heading(at(i)) - there);
             turn.rem_euclid(TAU) >= FRAC_PI_4 && turn.rem_euclid(TAU) < PI
         };
         let steps = (1..STEPS / 4).find(turned).unwrap_or(STEPS / 8);
-        smooth((tip.s + sign * steps as f64 / STEPS as f64 * length).rem_euclid(length) % length)
+        Site { s: at(steps).rem_euclid(length) % length, corner: None, ..tip }
     })
 }
 

@@ -1,6 +1,7 @@
 //! The medial axis as a graph: forks, where a disc touches the boundary in three places or more, and branches between them.
 
 use super::triangulation::{Site, Triangulation, circumcenter, distance};
+use super::open::MOST;
 use crate::domain::Domain;
 
 /// A fork. Around it, counter-clockwise, boundary points and branches take turns.
@@ -54,6 +55,10 @@ pub(super) struct Graph {
 const ROUGH: f64 = 65.0;
 /// Forks nearer to each other than this share of their radius are one.
 const NEAR: f64 = 0.05;
+/// A corner belongs to the tip of a branch if a chord of this share of the branch's width cuts both off.
+const FILLET: f64 = 0.2;
+/// Smooth ends further along the boundary than this many radii of their fork are corridors.
+const LONG: f64 = 2.5;
 
 impl Graph {
     /// The graph of a triangulation's triangles with three neighbours, and the chains between them.
@@ -152,47 +157,109 @@ impl Graph {
     /// Takes out what is only roughness, joins forks that are one, until nothing changes.
     pub(super) fn simplify(&mut self, domain: &Domain) {
         // Points on one circle first: how they were triangulated is chance.
-        while self.contract_where(domain, 1e-6) {}
+        while self.contract_where(domain, 1e-6, usize::MAX) {}
         loop {
             let changed = self.prune_rough(domain) || self.dissolve_passing();
-            if !changed && !self.contract_where(domain, NEAR) {
+            if !changed && !self.contract_where(domain, NEAR, MOST) {
                 return;
             }
         }
     }
 
-    /// Puts the tip of every smooth end in the middle of the arc that the last disc touches: where on an arc the triangles end is
-    /// chance.
+    /// Puts the tip of every smooth end on a corner near it (in a fillet), or else in the middle of the arc that the last disc
+    /// touches: where on an arc the triangles end is chance.
     pub(super) fn center_tips(&mut self, domain: &Domain) {
         for branch in self.branches.iter_mut().flatten() {
             for end in 0..2 {
                 let End::Leaf(tip) = branch.ends[end] else { continue };
                 if tip.corner.is_none() {
-                    branch.ends[end] = End::Leaf(centered(domain, tip, &branch.directed(end)));
+                    let pairs = branch.directed(end);
+                    let corner = corner_near(domain, tip, &pairs);
+                    branch.ends[end] = End::Leaf(corner.unwrap_or_else(|| centered(domain, tip, &pairs)));
                 }
             }
         }
     }
 
-    /// Contracts the first branch between two forks that are nearer than a share of their radius or share a boundary point.
-    fn contract_where(&mut self, domain: &Domain, share: f64) -> bool {
-        for b in 0..self.branches.len() {
-            let Some(Branch { ends: [End::Fork(f), End::Fork(g)], .. }) = self.branches[b] else { continue };
-            let (Some(first), Some(second)) = (&self.forks[f], &self.forks[g]) else { continue };
-            if f == g {
-                continue;
-            }
-            let radius = |fork: &Fork| distance(fork.position, plan(domain, fork.ring[0].site));
-            let near = distance(first.position, second.position) <= share * radius(first).min(radius(second));
-            let (Some(i), Some(j)) = (slot_of(first, b, 0), slot_of(second, b, 1)) else { continue };
-            let same = |p: usize, q: usize| first.ring[p].site == second.ring[q].site;
-            let (n, m) = (first.ring.len(), second.ring.len());
-            if near || same(i, (j + 1) % m) || same((i + 1) % n, j) {
-                self.contract(domain, b, [f, i], [g, j]);
-                return true;
-            }
+    /// Contracts the shortest branch between two forks that are nearer than a share of their radius or share a boundary point, and
+    /// together have not too many edges.
+    fn contract_where(&mut self, domain: &Domain, share: f64, most: usize) -> bool {
+        let shortest = (0..self.branches.len())
+            .filter_map(|b| Some((b, self.contractible(domain, b, share, most)?)))
+            .min_by(|(_, a), (_, b)| a.0.total_cmp(&b.0));
+        let Some((b, (_, first, second))) = shortest else { return false };
+        self.contract(domain, b, first, second);
+        true
+    }
+
+    /// Whether a branch may be contracted: its length by the smaller radius, and the slots at its ends.
+    fn contractible(
+        &self,
+        domain: &Domain,
+        b: usize,
+        share: f64,
+        most: usize,
+    ) -> Option<(f64, [usize; 2], [usize; 2])> {
+        let Some(Branch { ends: [End::Fork(f), End::Fork(g)], .. }) = self.branches[b] else { return None };
+        let (first, second) = (self.forks[f].as_ref()?, self.forks[g].as_ref()?);
+        if f == g {
+            return None;
         }
-        false
+        let radius = |fork: &Fork| distance(fork.position, plan(domain, fork.ring[0].site));
+        let length = distance(first.position, second.position) / radius(first).min(radius(second));
+        let (i, j) = (slot_of(first, b, 0)?, slot_of(second, b, 1)?);
+        let same = |p: usize, q: usize| first.ring[p].site == second.ring[q].site;
+        let (n, m) = (first.ring.len(), second.ring.len());
+        let joined = length <= share || share >= NEAR && (same(i, (j + 1) % m) || same((i + 1) % n, j));
+        // Two boundary points become one on either side of the branch, which goes with both its ends.
+        let edges = || self.valence(domain, f) + self.valence(domain, g) - 4;
+        (joined && edges() <= most).then_some((length, [f, i], [g, j]))
+    }
+
+    /// Edges at the vertex of a fork: to its boundary points, and along its branches except those that end in one quad.
+    pub(super) fn valence(&self, domain: &Domain, f: usize) -> usize {
+        let Some(fork) = &self.forks[f] else { return 0 };
+        (0..fork.ring.len()).map(|i| self.edges(domain, fork, i)).sum()
+    }
+
+    /// Edges that a slot brings to the vertex of its fork: one or two.
+    pub(super) fn edges(&self, domain: &Domain, fork: &Fork, slot: usize) -> usize {
+        let Slot { branch, end, .. } = fork.ring[slot];
+        let along = match self.branches[branch].as_ref().map(|b| b.ends[1 - end]) {
+            Some(End::Leaf(tip)) => is_long(domain, fork, slot, tip),
+            _ => true,
+        };
+        1 + usize::from(along)
+    }
+
+    /// The slot at the other end of the branch in a slot.
+    pub(super) fn beyond(&self, f: usize, i: usize) -> Option<[usize; 2]> {
+        let slot = self.forks[f].as_ref()?.ring[i];
+        let End::Fork(g) = self.branches[slot.branch].as_ref()?.ends[1 - slot.end] else { return None };
+        Some([g, slot_of(self.forks[g].as_ref()?, slot.branch, 1 - slot.end)?])
+    }
+
+    /// A slot by its fork and its place in the ring.
+    pub(super) fn slot(&self, [f, i]: [usize; 2]) -> Option<Slot> {
+        self.forks[f].as_ref()?.ring.get(i).copied()
+    }
+
+    /// Gives a fork another boundary point in a slot.
+    pub(super) fn move_site(&mut self, [f, i]: [usize; 2], site: Site) {
+        if let Some(fork) = &mut self.forks[f] {
+            fork.ring[i].site = site;
+        }
+    }
+
+    /// The boundary points of all forks, the ends of all branches and the corners of the domain.
+    pub(super) fn sites(&self, domain: &Domain) -> Vec<Site> {
+        let rings = self.forks.iter().flatten().flat_map(|fork| fork.ring.iter().map(|slot| slot.site));
+        let tips = self.branches.iter().flatten().flat_map(|b| b.ends).filter_map(|end| match end {
+            End::Leaf(tip) => Some(tip),
+            _ => None,
+        });
+        let corner = |c| domain.corner(c).map(|(loop_number, s)| Site { loop_number, s, corner: Some(c) });
+        rings.chain(tips).chain((0..domain.corner_count()).filter_map(corner)).collect()
     }
 
     /// Makes one fork of the two at the ends of a branch, which is in slot `i` of fork `f` and in slot `j` of fork `g`.
@@ -221,7 +288,7 @@ impl Graph {
         self.forks[f] = Some(Fork { position, ring });
     }
 
-    fn attach(&mut self, branch: usize, end: usize, to: End) {
+    pub(super) fn attach(&mut self, branch: usize, end: usize, to: End) {
         if let Some(branch) = &mut self.branches[branch] {
             branch.ends[end] = to;
         }
@@ -317,6 +384,23 @@ impl Branch {
     }
 }
 
+/// The corner of the domain that lies about a smooth tip, within a chord that is short against the widest of the branch.
+fn corner_near(domain: &Domain, tip: Site, pairs: &[[Site; 2]]) -> Option<Site> {
+    let chord = |[right, left]: &[Site; 2]| distance(plan(domain, *right), plan(domain, *left));
+    let widest = pairs.iter().map(chord).fold(0.0, f64::max);
+    // Going away from the tip, the boundary runs from the left over the tip to the right.
+    let &[right, left] = pairs
+        .iter()
+        .take_while(|pair| chord(pair) < FILLET * widest && pair.iter().all(|s| s.loop_number == tip.loop_number))
+        .last()?;
+    let whole = stretch(domain, left, right);
+    domain.loop_corners(tip.loop_number).find_map(|corner| {
+        let (loop_number, s) = domain.corner(corner)?;
+        let site = Site { loop_number, s, corner: Some(corner) };
+        (stretch(domain, left, site) <= whole).then_some(site)
+    })
+}
+
 /// The middle of the arc about a tip that lies on its disc; `pairs` go away from the tip.
 fn centered(domain: &Domain, tip: Site, pairs: &[[Site; 2]]) -> Site {
     let Some(&[a, b]) = pairs.first() else { return tip };
@@ -328,6 +412,16 @@ fn centered(domain: &Domain, tip: Site, pairs: &[[Site; 2]]) -> Site {
         Some(&[right, left]) => along(domain, left, right, 0.5),
         None => tip,
     }
+}
+
+/// Whether the smooth end that a slot leads to is so far off that one quad would be several times as long as wide.
+pub(super) fn is_long(domain: &Domain, fork: &Fork, slot: usize, tip: Site) -> bool {
+    let (right, left) = (fork.ring[slot].site, fork.ring[(slot + 1) % fork.ring.len()].site);
+    if tip.corner.is_some() || [right, left].iter().any(|s| s.loop_number != tip.loop_number) {
+        return false;
+    }
+    let way = stretch(domain, right, tip).min(stretch(domain, tip, left));
+    way > LONG * distance(fork.position, plan(domain, right))
 }
 
 /// The slot of a fork that holds one end of a branch.

@@ -13,6 +13,7 @@ mod graph;
 mod initial;
 mod layout;
 mod number;
+mod open;
 pub mod picture;
 mod refine;
 mod tidy;
@@ -79,6 +80,8 @@ fn decompose(domain: &Domain) -> Result<Layout, SkeletonError> {
     graph.center_tips(domain);
     if !graph.fork_numbers().is_empty() {
         refine::forks(&mut graph, domain);
+        open::forks(&mut graph, domain);
+        open::shared_points(&mut graph, domain);
         return Ok(forked::layout(&graph, domain));
     }
     let none = || SkeletonError::NoMesh { reason: "it has neither forks nor ends".to_owned() };

@@ -1,0 +1,150 @@
+//! Forks with too many edges are opened: two forks with a short corridor between them, so that strings have room for strips.
+//!
+//! The corridor lies across two boundary points of the old fork; it is a strip of quads between them, so quads stay quads. Forks
+//! that share a boundary point, which touch one re-entrant corner, then each get one of their own beside it.
+
+use super::graph::{Branch, End, Fork, Graph, Slot, plan, sector, stretch};
+use super::triangulation::Site;
+use crate::domain::Domain;
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+/// Forks with more edges are opened, and none with more is made by joining forks.
+pub(super) const MOST: usize = 6;
+/// How far an opened fork goes towards the middle of its boundary points.
+const APART: f64 = 0.3;
+
+/// Opens forks until none has more than [`MOST`] edges.
+pub(super) fn forks(graph: &mut Graph, domain: &Domain) {
+    let mut f = 0;
+    while f < graph.forks.len() {
+        let crowded = graph.forks[f].is_some() && graph.valence(domain, f) > MOST;
+        match crowded.then(|| best_cut(graph, domain, f)).flatten() {
+            Some(cut) => split(graph, domain, f, cut),
+            None => f += 1,
+        }
+    }
+}
+
+/// The two boundary points across which a fork is best opened: the most even valences, then the straightest cut, then the one
+/// nearest to the start of its loops, which a mirrored domain keeps.
+fn best_cut(graph: &Graph, domain: &Domain, f: usize) -> Option<[usize; 2]> {
+    let fork = graph.forks[f].as_ref()?;
+    let n = fork.ring.len();
+    let edges = |from: usize, to: usize| 2 + (from..to).map(|k| graph.edges(domain, fork, k % n)).sum::<usize>();
+    let rank = |&[i, j]: &[usize; 2]| {
+        let most = edges(i, j).max(edges(j, i + n));
+        let point = |k: usize| plan(domain, fork.ring[k].site);
+        let bend = (sector(fork.position, point(i), point(j)) - PI).abs();
+        let start = [i, j].map(|k| to_start(domain, fork.ring[k].site));
+        (most, (50.0 * bend).round() as i64, (1e4 * start[0].min(start[1])).round() as i64)
+    };
+    let cuts = (0..n).flat_map(|i| (i + 2..n).map(move |j| [i, j])).filter(|&[i, j]| i + n >= j + 2);
+    cuts.min_by_key(rank)
+}
+
+/// Share of its loop between a site and the loop's start, the shorter way.
+fn to_start(domain: &Domain, site: Site) -> f64 {
+    let length = domain.loops[site.loop_number].length();
+    site.s.min(length - site.s) / length
+}
+
+/// Makes two forks of one: the slots from `i` on to before `j`, and the others.
+fn split(graph: &mut Graph, domain: &Domain, f: usize, [i, j]: [usize; 2]) {
+    let Some(fork) = graph.forks[f].take() else { return };
+    let (n, branch, g) = (fork.ring.len(), graph.branches.len(), graph.forks.len());
+    let part = |from: usize, to: usize, end: usize| {
+        let mut ring: Vec<Slot> = (from..to).map(|k| fork.ring[k % n]).collect();
+        ring.push(Slot { site: fork.ring[to % n].site, branch, end });
+        let mean = [0, 1].map(|k| {
+            ring.iter().map(|slot| plan(domain, slot.site)[k]).sum::<f64>() / ring.len() as f64
+        });
+        let position = [0, 1].map(|k| fork.position[k] + APART * (mean[k] - fork.position[k]));
+        Fork { position, ring }
+    };
+    let (first, second) = (part(i, j, 0), part(j, i + n, 1));
+    let pairs = vec![[fork.ring[j].site, fork.ring[i].site]];
+    graph.branches.push(Some(Branch { ends: [End::Fork(f), End::Fork(g)], pairs }));
+    for slot in &second.ring {
+        graph.attach(slot.branch, slot.end, End::Fork(g));
+    }
+    graph.forks[f] = Some(first);
+    graph.forks.push(Some(second));
+}
+
+/// Gives forks that share a boundary point one each, in their order along the boundary. Of an odd number the middle one keeps it;
+/// of an even number none, and a corner there gets a cross section of the corridor in the middle.
+pub(super) fn shared_points(graph: &mut Graph, domain: &Domain) {
+    let mut holders: BTreeMap<(usize, u64), Vec<[usize; 2]>> = BTreeMap::new();
+    for f in graph.fork_numbers() {
+        for (i, slot) in graph.forks[f].iter().flat_map(|fork| fork.ring.iter().enumerate()) {
+            holders.entry((slot.site.loop_number, slot.site.s.to_bits())).or_default().push([f, i]);
+        }
+    }
+    // What was there before: the room of one point does not depend on which came first.
+    let taken = graph.sites(domain);
+    for shared in holders.into_values().filter(|h| h.len() > 1) {
+        let chain = in_order(graph, &shared);
+        let Some(site) = graph.slot(chain[0]).map(|slot| slot.site) else { continue };
+        let [back, ahead] = room(domain, &taken, site);
+        let (count, half) = (chain.len(), chain.len() / 2);
+        for (k, &place) in chain.iter().enumerate() {
+            let way = if k < half {
+                -back * (half - k) as f64 / (half + 1) as f64
+            } else {
+                // The first of these is the middle one of an odd number.
+                ahead * (k + 1 - (count - half)) as f64 / (half + 1) as f64
+            };
+            if way != 0.0 {
+                graph.move_site(place, shifted(domain, site, way));
+            }
+        }
+        // No other corridor is to have a cross section there.
+        let middle = graph.slot(chain[half - 1]).filter(|_| count % 2 == 0).map(|slot| slot.branch);
+        for (_, branch) in graph.branches.iter_mut().enumerate().filter(|&(b, _)| Some(b) != middle) {
+            if let Some(branch) = branch {
+                let sites = branch.pairs.iter_mut().flatten();
+                sites.filter(|other| **other == site).for_each(|other| other.corner = None);
+            }
+        }
+    }
+}
+
+/// Forks, by their slots with the shared point, as they follow each other along the boundary with the domain on the left.
+fn in_order(graph: &Graph, shared: &[[usize; 2]]) -> Vec<[usize; 2]> {
+    let next = |&[f, i]: &[usize; 2]| {
+        let [g, j] = graph.beyond(f, i)?;
+        let count = graph.forks[g].as_ref()?.ring.len();
+        Some([g, (j + 1) % count]).filter(|place| shared.contains(place))
+    };
+    let followed: Vec<[usize; 2]> = shared.iter().filter_map(next).collect();
+    let mut chain: Vec<[usize; 2]> = Vec::with_capacity(shared.len());
+    // One chain as a rule; what is not joined to it comes after.
+    let starts = shared.iter().filter(|place| !followed.contains(place)).chain(shared);
+    for &start in starts {
+        let mut place = Some(start);
+        while let Some(found) = place.filter(|found| !chain.contains(found)) {
+            chain.push(found);
+            place = next(&found);
+        }
+    }
+    chain
+}
+
+/// Ways from a site back and ahead along its loop to the next other ones; at most a quarter of the loop.
+fn room(domain: &Domain, taken: &[Site], site: Site) -> [f64; 2] {
+    let length = domain.loops[site.loop_number].length();
+    let others = || taken.iter().filter(|t| t.loop_number == site.loop_number && t.s != site.s);
+    let least = |ways: &mut dyn Iterator<Item = f64>| ways.fold(0.25 * length, f64::min);
+    [
+        least(&mut others().map(|&t| stretch(domain, t, site))),
+        least(&mut others().map(|&t| stretch(domain, site, t))),
+    ]
+}
+
+/// The point so far along the boundary, with the domain on the left, from a site.
+fn shifted(domain: &Domain, site: Site, way: f64) -> Site {
+    let length = domain.loops[site.loop_number].length();
+    let s = if site.loop_number == 0 { site.s + way } else { site.s - way };
+    Site { s: s.rem_euclid(length) % length, corner: None, ..site }
+}
