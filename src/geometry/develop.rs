@@ -70,12 +70,13 @@ pub fn shape(
     let corners = corners::assign(&coarse, domain);
     let limits = Limits::of(&params.limits, params.target_length(domain));
     let stage = Stage { coarse: &coarse, domain, surface, corners: &corners };
-    let task = stage.task(params, &limits);
+    let aims = limits.aims();
+    let task = stage.task(params, &limits, &aims);
     let ground = Ground::new(domain, surface, limits.target_length);
     let optimiser = Optimiser::new(&task, &ground);
     let probe = stage.probe(params.max_faces)?.into_sheet(&ground);
     if params.relax.kind == RelaxKind::Optimise {
-        let first = stage.place(&optimiser.coarse_rows(&probe), Folds::Leave)?.into_sheet(&ground);
+        let first = stage.place(&optimiser.coarse_rows(&probe), Folds::Unfold)?.into_sheet(&ground);
         return optimiser.run(first);
     }
     let rows = optimiser.pattern_rows(&probe)?;
@@ -123,7 +124,7 @@ struct Site {
 }
 
 impl Stage<'_> {
-    fn task<'b>(&'b self, params: &PatternParams, limits: &'b Limits) -> Task<'b> {
+    fn task<'b>(&'b self, params: &PatternParams, limits: &'b Limits, aims: &'b Limits) -> Task<'b> {
         let t = limits.target_length;
         let panels = match params.density {
             Density::Panels => params.panels as f64,
@@ -134,7 +135,7 @@ impl Stage<'_> {
             Density::TargetLength => Fineness::Width(t),
         };
         let Self { coarse, domain, surface, corners } = *self;
-        Task { coarse, domain, surface, corners, limits, fineness, panels, max_faces: params.max_faces }
+        Task { coarse, domain, surface, corners, limits, aims, fineness, panels, max_faces: params.max_faces }
     }
 
     /// Placed and relaxed at the given densities.

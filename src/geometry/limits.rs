@@ -47,6 +47,18 @@ impl Limits {
     }
 }
 
+/// Longest edge and largest gap that a pattern is drawn to keep where its limits are looser, in target lengths: with a longest edge of
+/// 5 t the tips of an ellipse were left to edges of 4 t.
+const LONGEST_AIM: f64 = 2.4;
+
+impl Limits {
+    /// What the optimiser is to aim at: these limits, but for a longest edge and a gap that are much looser than a good pattern needs.
+    pub fn aims(&self) -> Self {
+        let t = self.target_length;
+        Self { max_edge: self.max_edge.min(LONGEST_AIM * t), max_gap: self.max_gap.min(QUARTER * t), ..*self }
+    }
+}
+
 /// One limit, what the pattern has, and by how much it exceeds.
 #[derive(Clone, PartialEq, Debug)]
 pub struct LimitExcess {

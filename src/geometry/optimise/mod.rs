@@ -82,6 +82,8 @@ pub struct Task<'a> {
     pub corners: &'a [LoopCorners],
     /// What the pattern is to keep.
     pub limits: &'a Limits,
+    /// What it is drawn to keep: the same, or [`Limits::aims`] of it.
+    pub aims: &'a Limits,
     /// Rows by a number of panels or by a width in metres.
     pub fineness: Fineness,
     /// N, what coarse patterns are a quarter of.
@@ -178,7 +180,7 @@ impl<'a> Optimiser<'a> {
             self.task.coarse,
             self.ground,
             sheet,
-            self.task.limits,
+            self.task.aims,
             &self.caps,
             COARSENESS.sqrt(),
         );
@@ -190,7 +192,7 @@ impl<'a> Optimiser<'a> {
         let rungs = rows::rungs(self.task.coarse, sheet);
         let lengths: Vec<f64> = rungs.iter().map(length).collect();
         let mut bounds =
-            rows::bounds(self.task.coarse, self.ground, sheet, self.task.limits, &self.caps, 1.0);
+            rows::bounds(self.task.coarse, self.ground, sheet, self.task.aims, &self.caps, 1.0);
         if let Some(at_least) = at_least {
             bounds.least.iter_mut().zip(at_least).for_each(|(least, more)| *least = (*least).max(*more));
         }
@@ -216,7 +218,7 @@ impl<'a> Optimiser<'a> {
             let (mut is_clean, mut is_good) = (false, false);
             let mut state = None;
             for stage in &FINE {
-                let energy = run.stage(stage, self.task.limits, 1.0);
+                let energy = run.stage(stage, self.task.aims, 1.0);
                 is_clean = energy.is_finite();
                 let found = run.net.state(run.x.clone());
                 is_good = is_clean && self.keeps_limits(&self.pattern(&sheet, &found));
@@ -243,7 +245,7 @@ impl<'a> Optimiser<'a> {
         let pattern = tried.pattern.clone();
         let mut last = tried;
         for _ in 0..REPAIRS {
-            let longest = LONG_RESERVE * self.task.limits.max_edge / self.task.limits.target_length;
+            let longest = LONG_RESERVE * self.task.aims.max_edge / self.task.aims.target_length;
             let parts = last.sheet.dense_parts(self.task.coarse);
             let rungs = rows::rungs(self.task.coarse, &last.sheet);
             let more = |s: usize| {
@@ -271,7 +273,7 @@ impl<'a> Optimiser<'a> {
         let mut sheet = self.untangled(sheet);
         let (state, is_clean) = {
             let mut run = Run::new(self.ground, &sheet);
-            let energy = run.stage(stage, self.task.limits, coarseness);
+            let energy = run.stage(stage, self.task.aims, coarseness);
             (run.net.state(run.x), energy.is_finite())
         };
         sheet.set(state);
