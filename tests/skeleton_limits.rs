@@ -32,10 +32,9 @@ fn corner_angle(domain: &Domain, corner: usize) -> f64 {
 fn faults(domain: &Domain, base: &BaseMesh) -> Vec<String> {
     let mesh = InitialMesh::from_base(base).unwrap().mesh;
     let mut faults = Vec::new();
-    let rejection = topological_rejection(&canonical_mesh(&mesh), domain, Pinched::Reject);
+    let rejection = topological_rejection(&canonical_mesh(&mesh), domain, Pinched::Reject, None);
     faults.extend(rejection.map(|r| r.to_string()));
-    let boundary: BTreeSet<u32> =
-        mesh.loops().iter().flatten().map(|&d| mesh.origin(d).0).collect();
+    let boundary: BTreeSet<u32> = mesh.loops().iter().flatten().map(|&d| mesh.origin(d).0).collect();
     let mut angle: BTreeMap<u32, f64> = BTreeMap::new();
     if domain.mark().is_none() {
         for (corner, vertices) in base.corners.iter().enumerate() {
@@ -93,7 +92,10 @@ fn starts_keep_the_limits() {
                     if !faults.is_empty() {
                         eprintln!("{kind} {seed}: {}", faults.join("; "));
                     }
-                    let most = (0..base.vertices.len() as u32).map(|v| base.faces.iter().filter(|f| f.contains(&v)).count()).max().unwrap();
+                    let most = (0..base.vertices.len() as u32)
+                        .map(|v| base.faces.iter().filter(|f| f.contains(&v)).count())
+                        .max()
+                        .unwrap();
                     *valences.entry(most).or_default() += 1;
                     if let Ok(folder) = std::env::var("SKELETON_PICTURES") {
                         let svg = skeleton::picture::svg(&base, &domain, kind).unwrap();
@@ -121,7 +123,11 @@ fn topology(base: &BaseMesh) -> [quadrille::mesh::canonical::Code; 2] {
 fn a_start_does_not_depend_on_the_pose() {
     let turned = |turn_deg: f64| Pose { turn_deg, ..AS_DRAWN };
     let poses = [
-        turned(90.0), turned(180.0), turned(270.0), turned(30.0), turned(77.0),
+        turned(90.0),
+        turned(180.0),
+        turned(270.0),
+        turned(30.0),
+        turned(77.0),
         Pose { mirrored: true, ..AS_DRAWN },
         Pose { mirrored: true, turn_deg: 90.0, ..AS_DRAWN },
         Pose { scale: 1000.0, ..AS_DRAWN },
@@ -145,7 +151,13 @@ fn a_start_does_not_depend_on_the_pose() {
                 let other = skeleton::initial_mesh(&domain).map(|b| topology(&b)[0]);
                 if other != Ok(if pose.mirrored { mirrored } else { plain }) {
                     differ += 1;
-                    eprintln!("{kind} {seed} {pose:?}: {}", match other { Ok(_) => "another topology".to_owned(), Err(e) => e.to_string() });
+                    eprintln!(
+                        "{kind} {seed} {pose:?}: {}",
+                        match other {
+                            Ok(_) => "another topology".to_owned(),
+                            Err(e) => e.to_string(),
+                        }
+                    );
                 }
             }
         }

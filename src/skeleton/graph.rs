@@ -1,7 +1,7 @@
 //! The medial axis as a graph: forks, where a disc touches the boundary in three places or more, and branches between them.
 
-use super::triangulation::{Site, Triangulation, circumcenter, distance};
 use super::open::MOST;
+use super::triangulation::{Site, Triangulation, circumcenter, distance};
 use crate::domain::Domain;
 
 /// A fork. Around it, counter-clockwise, boundary points and branches take turns.
@@ -391,7 +391,9 @@ fn corner_near(domain: &Domain, tip: Site, pairs: &[[Site; 2]]) -> Option<Site> 
     // Going away from the tip, the boundary runs from the left over the tip to the right.
     let &[right, left] = pairs
         .iter()
-        .take_while(|pair| chord(pair) < FILLET * widest && pair.iter().all(|s| s.loop_number == tip.loop_number))
+        .take_while(|pair| {
+            chord(pair) < FILLET * widest && pair.iter().all(|s| s.loop_number == tip.loop_number)
+        })
         .last()?;
     let whole = stretch(domain, left, right);
     domain.loop_corners(tip.loop_number).find_map(|corner| {

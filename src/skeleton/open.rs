@@ -31,7 +31,8 @@ pub(super) fn forks(graph: &mut Graph, domain: &Domain) {
 fn best_cut(graph: &Graph, domain: &Domain, f: usize) -> Option<[usize; 2]> {
     let fork = graph.forks[f].as_ref()?;
     let n = fork.ring.len();
-    let edges = |from: usize, to: usize| 2 + (from..to).map(|k| graph.edges(domain, fork, k % n)).sum::<usize>();
+    let edges =
+        |from: usize, to: usize| 2 + (from..to).map(|k| graph.edges(domain, fork, k % n)).sum::<usize>();
     let rank = |&[i, j]: &[usize; 2]| {
         let most = edges(i, j).max(edges(j, i + n));
         let point = |k: usize| plan(domain, fork.ring[k].site);
@@ -56,9 +57,8 @@ fn split(graph: &mut Graph, domain: &Domain, f: usize, [i, j]: [usize; 2]) {
     let part = |from: usize, to: usize, end: usize| {
         let mut ring: Vec<Slot> = (from..to).map(|k| fork.ring[k % n]).collect();
         ring.push(Slot { site: fork.ring[to % n].site, branch, end });
-        let mean = [0, 1].map(|k| {
-            ring.iter().map(|slot| plan(domain, slot.site)[k]).sum::<f64>() / ring.len() as f64
-        });
+        let mean = [0, 1]
+            .map(|k| ring.iter().map(|slot| plan(domain, slot.site)[k]).sum::<f64>() / ring.len() as f64);
         let position = [0, 1].map(|k| fork.position[k] + APART * (mean[k] - fork.position[k]));
         Fork { position, ring }
     };

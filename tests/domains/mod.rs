@@ -9,7 +9,21 @@ use std::path::Path;
 
 /// The kinds of [`outline`].
 pub const KINDS: [&str; 15] = [
-    "l", "t", "plus", "u", "h", "disc", "ring", "ellipse", "trefoil", "lobes", "bean", "star", "fillet", "rounded", "eccentric",
+    "l",
+    "t",
+    "plus",
+    "u",
+    "h",
+    "disc",
+    "ring",
+    "ellipse",
+    "trefoil",
+    "lobes",
+    "bean",
+    "star",
+    "fillet",
+    "rounded",
+    "eccentric",
 ];
 
 /// Turned about the origin, mirrored in x first, scaled, then moved.
@@ -103,13 +117,16 @@ fn opening(rng: &mut Rng, [x, y]: [f64; 2], radius: f64) -> LoopParams {
     let slim = 0.5 + 0.5 * random::unit(rng);
     match random::below(rng, 3) {
         0 => LoopParams::Circle { center_m: vec![x, y], radius_m: radius },
-        1 => LoopParams::Ellipse { center_m: vec![x, y], semi_axes_m: [radius, slim * radius], rotation_deg: turn },
+        1 => LoopParams::Ellipse {
+            center_m: vec![x, y],
+            semi_axes_m: [radius, slim * radius],
+            rotation_deg: turn,
+        },
         _ => {
             let turn = if turn < 90.0 { 0.0 } else { turn.to_radians() };
             let (a, b) = (0.8 * radius, 0.6 * slim * radius);
-            let at = |[u, v]: [f64; 2]| {
-                [x + u * turn.cos() - v * turn.sin(), y + u * turn.sin() + v * turn.cos()]
-            };
+            let at =
+                |[u, v]: [f64; 2]| [x + u * turn.cos() - v * turn.sin(), y + u * turn.sin() + v * turn.cos()];
             polyline(&[[-a, -b], [a, -b], [a, b], [-a, b]].map(at))
         }
     }
@@ -149,31 +166,78 @@ pub fn drawn(kind: &str, rng: &mut Rng) -> Vec<LoopParams> {
     let (outline, rooms): (LoopParams, Vec<([f64; 2], f64)>) = match kind {
         "l" => (
             polyline(&[[0., 0.], [w + l, 0.], [w + l, v], [w, v], [w, v + m], [0., v + m]]),
-            vec![([w + 0.5 * l, 0.5 * v], v.min(l)), ([0.5 * w, v + 0.5 * m], w.min(m)), ([0.5 * w, 0.5 * v], w.min(v))],
+            vec![
+                ([w + 0.5 * l, 0.5 * v], v.min(l)),
+                ([0.5 * w, v + 0.5 * m], w.min(m)),
+                ([0.5 * w, 0.5 * v], w.min(v)),
+            ],
         ),
         "t" => (
             polyline(&[[-l, 0.], [w + m, 0.], [w + m, v], [w, v], [w, v + l], [0., v + l], [0., v], [-l, v]]),
-            vec![([-0.5 * l, 0.5 * v], v.min(l)), ([w + 0.5 * m, 0.5 * v], v.min(m)), ([0.5 * w, v + 0.5 * l], w.min(l))],
+            vec![
+                ([-0.5 * l, 0.5 * v], v.min(l)),
+                ([w + 0.5 * m, 0.5 * v], v.min(m)),
+                ([0.5 * w, v + 0.5 * l], w.min(l)),
+            ],
         ),
         "plus" => (
             polyline(&[
-                [0., -l], [w, -l], [w, 0.], [w + m, 0.], [w + m, v], [w, v], [w, v + m], [0., v + m], [0., v], [-l, v],
-                [-l, 0.], [0., 0.],
+                [0., -l],
+                [w, -l],
+                [w, 0.],
+                [w + m, 0.],
+                [w + m, v],
+                [w, v],
+                [w, v + m],
+                [0., v + m],
+                [0., v],
+                [-l, v],
+                [-l, 0.],
+                [0., 0.],
             ]),
-            vec![([0.5 * w, -0.5 * l], w.min(l)), ([0.5 * w, 0.5 * v], w.min(v)), ([-0.5 * l, 0.5 * v], v.min(l))],
+            vec![
+                ([0.5 * w, -0.5 * l], w.min(l)),
+                ([0.5 * w, 0.5 * v], w.min(v)),
+                ([-0.5 * l, 0.5 * v], v.min(l)),
+            ],
         ),
         "u" => (
             polyline(&[
-                [0., 0.], [2. * w + l, 0.], [2. * w + l, v + m], [w + l, v + m], [w + l, v], [w, v], [w, v + m], [0., v + m],
+                [0., 0.],
+                [2. * w + l, 0.],
+                [2. * w + l, v + m],
+                [w + l, v + m],
+                [w + l, v],
+                [w, v],
+                [w, v + m],
+                [0., v + m],
             ]),
-            vec![([0.5 * w, v + 0.5 * m], w.min(m)), ([w + 0.5 * l, 0.5 * v], v.min(l)), ([1.5 * w + l, 0.5 * v], v.min(w))],
+            vec![
+                ([0.5 * w, v + 0.5 * m], w.min(m)),
+                ([w + 0.5 * l, 0.5 * v], v.min(l)),
+                ([1.5 * w + l, 0.5 * v], v.min(w)),
+            ],
         ),
         "h" => (
             polyline(&[
-                [0., 0.], [w, 0.], [w, m], [w + l, m], [w + l, 0.], [2. * w + l, 0.], [2. * w + l, 2. * m + v],
-                [w + l, 2. * m + v], [w + l, m + v], [w, m + v], [w, 2. * m + v], [0., 2. * m + v],
+                [0., 0.],
+                [w, 0.],
+                [w, m],
+                [w + l, m],
+                [w + l, 0.],
+                [2. * w + l, 0.],
+                [2. * w + l, 2. * m + v],
+                [w + l, 2. * m + v],
+                [w + l, m + v],
+                [w, m + v],
+                [w, 2. * m + v],
+                [0., 2. * m + v],
             ]),
-            vec![([0.5 * w, 0.5 * m], w.min(m)), ([w + 0.5 * l, m + 0.5 * v], v.min(l)), ([1.5 * w + l, m + 0.5 * v], v.min(w))],
+            vec![
+                ([0.5 * w, 0.5 * m], w.min(m)),
+                ([w + 0.5 * l, m + 0.5 * v], v.min(l)),
+                ([1.5 * w + l, m + 0.5 * v], v.min(w)),
+            ],
         ),
         "disc" => (
             LoopParams::Circle { center_m: vec![0.0, 0.0], radius_m: 12.0 },
@@ -188,7 +252,11 @@ pub fn drawn(kind: &str, rng: &mut Rng) -> Vec<LoopParams> {
             return vec![polyline(&[[-w, -v], [w, -v], [w, v], [-w, v]]), hole];
         }
         "ellipse" => (
-            LoopParams::Ellipse { center_m: vec![0.0, 0.0], semi_axes_m: [20.0, 5.0 + 8.0 * a], rotation_deg: 0.0 },
+            LoopParams::Ellipse {
+                center_m: vec![0.0, 0.0],
+                semi_axes_m: [20.0, 5.0 + 8.0 * a],
+                rotation_deg: 0.0,
+            },
             vec![([-9.0, 0.0], 5.0), ([9.0, 0.0], 5.0)],
         ),
         "trefoil" => (smooth(|t| 7.0 + (2.0 + 2.5 * a) * (3.0 * t).cos()), vec![([0.0, 0.0], 2.0)]),
@@ -196,7 +264,10 @@ pub fn drawn(kind: &str, rng: &mut Rng) -> Vec<LoopParams> {
             let n = 4.0 + random::below(rng, 2) as f64;
             (smooth(|t| 9.0 + (2.0 + 3.0 * a) * (n * t).cos()), vec![([0.0, 0.0], 3.0)])
         }
-        "bean" => (smooth(|t| 8.0 + (1.0 + 2.0 * a) * t.cos() + (1.0 + 2.0 * b) * (2.0 * t).cos()), vec![([0.0, 0.0], 3.0)]),
+        "bean" => (
+            smooth(|t| 8.0 + (1.0 + 2.0 * a) * t.cos() + (1.0 + 2.0 * b) * (2.0 * t).cos()),
+            vec![([0.0, 0.0], 3.0)],
+        ),
         "star" => {
             let n = 4 + random::below(rng, 5);
             let inner = 0.35 + 0.4 * a;
@@ -208,7 +279,9 @@ pub fn drawn(kind: &str, rng: &mut Rng) -> Vec<LoopParams> {
         }
         "fillet" => (
             rounded(
-                &[[0., 0.], [w + l, 0.], [w + l, v], [w, v], [w, v + m], [0., v + m]], 0.001, 4,
+                &[[0., 0.], [w + l, 0.], [w + l, v], [w, v], [w, v + m], [0., v + m]],
+                0.001,
+                4,
                 Corners::Indices((0..6).map(|i| 5 * i + 2).collect()),
             ),
             vec![([w + 0.5 * l, 0.5 * v], v.min(l)), ([0.5 * w, v + 0.5 * m], w.min(m))],

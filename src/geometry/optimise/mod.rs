@@ -176,14 +176,8 @@ impl<'a> Optimiser<'a> {
     pub fn coarse_rows(&self, sheet: &Sheet) -> Vec<u32> {
         let rungs = rows::rungs(self.task.coarse, sheet);
         let lengths: Vec<f64> = rungs.iter().map(Rungs::mean).collect();
-        let bounds = rows::bounds(
-            self.task.coarse,
-            self.ground,
-            sheet,
-            self.task.aims,
-            &self.caps,
-            COARSENESS.sqrt(),
-        );
+        let bounds =
+            rows::bounds(self.task.coarse, self.ground, sheet, self.task.aims, &self.caps, COARSENESS.sqrt());
         density::choose(self.task.coarse, &lengths, Fineness::Panels(self.task.panels / COARSENESS), &bounds)
     }
 
@@ -191,8 +185,7 @@ impl<'a> Optimiser<'a> {
     fn rows(&self, sheet: &Sheet, length: fn(&Rungs) -> f64, at_least: Option<&[u32]>) -> Vec<u32> {
         let rungs = rows::rungs(self.task.coarse, sheet);
         let lengths: Vec<f64> = rungs.iter().map(length).collect();
-        let mut bounds =
-            rows::bounds(self.task.coarse, self.ground, sheet, self.task.aims, &self.caps, 1.0);
+        let mut bounds = rows::bounds(self.task.coarse, self.ground, sheet, self.task.aims, &self.caps, 1.0);
         if let Some(at_least) = at_least {
             bounds.least.iter_mut().zip(at_least).for_each(|(least, more)| *least = (*least).max(*more));
         }
