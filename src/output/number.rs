@@ -19,10 +19,13 @@ pub fn shortest(value: f64) -> Option<String> {
 pub fn push_shortest(text: &mut String, value: f64) {
     if value == 0.0 {
         text.push('0');
-    } else if (1e-5..1e16).contains(&value.abs()) {
+    } else if (1e-5..1e15).contains(&value.abs()) {
+        // Beyond, the last digit may lie in the middle of two, and this takes the other one than the standard library.
         let mut buffer = zmij::Buffer::new();
         let digits = buffer.format_finite(value);
         text.push_str(digits.strip_suffix(".0").unwrap_or(digits));
+    } else if (1e15..1e16).contains(&value.abs()) {
+        let _ = write!(text, "{value}");
     } else if value.is_finite() {
         let _ = write!(text, "{value:e}");
     }
