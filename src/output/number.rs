@@ -19,13 +19,10 @@ pub fn shortest(value: f64) -> Option<String> {
 pub fn push_shortest(text: &mut String, value: f64) {
     if value == 0.0 {
         text.push('0');
-    } else if (1e-5..1e15).contains(&value.abs()) {
-        // Beyond, the last digit may lie in the middle of two, and this takes the other one than the standard library.
+    } else if (1e-5..1e16).contains(&value.abs()) {
         let mut buffer = zmij::Buffer::new();
         let digits = buffer.format_finite(value);
         text.push_str(digits.strip_suffix(".0").unwrap_or(digits));
-    } else if (1e15..1e16).contains(&value.abs()) {
-        let _ = write!(text, "{value}");
     } else if value.is_finite() {
         let _ = write!(text, "{value:e}");
     }
@@ -86,7 +83,7 @@ mod tests {
     }
 
     #[test]
-    fn shortest_is_that_of_the_standard_library() {
+    fn shortest_is_as_short_as_that_of_the_standard_library() {
         let mut random = crate::random::stream(1, 0, 0);
         let random = (0..200_000).map(|_| f64::from_bits(rand::Rng::next_u64(&mut random)));
         let bounds = [1e-5, 1e16, 1e-4, 1e15, f64::MIN_POSITIVE, f64::MAX];
@@ -96,7 +93,10 @@ mod tests {
         for x in random.chain(around).chain(powers).chain(wholes).filter(|x| x.is_finite() && *x != 0.0) {
             let plain = (1e-5..1e16).contains(&x.abs());
             let expected = if plain { x.to_string() } else { format!("{x:e}") };
-            assert_eq!(shortest(x), Some(expected));
+            let found = shortest(x).unwrap();
+            // Where the number lies in the middle of two shortest texts, either will do.
+            let as_good = found.len() == expected.len() && found.parse() == Ok(x);
+            assert!(found == expected || as_good, "{found} {expected}");
         }
     }
 
