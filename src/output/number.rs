@@ -45,7 +45,7 @@ pub fn push_tenths(text: &mut String, value: f64) {
     let scaled = value.abs() * 10.0;
     let whole = scaled.floor();
     // Near the middle of two tenths the exact decimals decide.
-    if !(scaled < 1e12) || (scaled - whole - 0.5).abs() < 1e-3 {
+    if scaled >= 1e12 || scaled.is_nan() || (scaled - whole - 0.5).abs() < 1e-3 {
         return text.push_str(&rounded(value, 1));
     }
     let tenths = if scaled - whole > 0.5 { whole as u64 + 1 } else { whole as u64 };
