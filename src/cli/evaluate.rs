@@ -51,7 +51,7 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
         refuse_results(folder)?;
     }
     let study = args.config.study(&config)?;
-    let save = args.out.as_deref().map(|folder| Designs::below(folder)).transpose()?;
+    let save = args.out.as_deref().map(Designs::below).transpose()?;
     let save = save.as_ref().map(|designs| |files: DesignFiles| designs.save(&files));
     let comparison = Comparison::of(&study, named, save.as_ref().map(|save| save as &Save<'_>))?;
     out!("{}", comparison.to_text());
