@@ -164,8 +164,8 @@ impl<'a, 'b> Flat<'a, 'b> {
             let f = depth / self.rest + MARGIN;
             sum += self.outside_weight * f * f;
             let by_depth = 2.0 * self.outside_weight * f / self.rest;
-            for k in 0..2 {
-                self.by_point[v as usize][k] += by_depth * way[k];
+            for (slope, along) in self.by_point[v as usize].iter_mut().zip(way) {
+                *slope += by_depth * along;
             }
         }
         sum

@@ -147,13 +147,13 @@ impl Rail {
     }
 
     /// The plan length of a point given by its length on the surface in metres; goes on beyond the loop's end as that does.
-    pub fn from_surface(&self, s: f64) -> f64 {
+    pub fn plan_station(&self, s: f64) -> f64 {
         let turns = (s / self.curve.length()).floor();
         self.flat.arc_length(self.curve.parameter(s)) / self.unit + turns * self.length
     }
 
     /// The length on the surface, m, of a point given by its plan length.
-    pub fn to_surface(&self, q: f64) -> f64 {
+    pub fn surface_station(&self, q: f64) -> f64 {
         let turns = (q / self.length).floor();
         self.curve.arc_length(self.flat.parameter(q * self.unit)) + turns * self.curve.length()
     }
@@ -165,7 +165,7 @@ impl Rail {
 
     /// Length on the surface between two plan lengths, local units.
     pub fn surface_length(&self, from: f64, to: f64) -> f64 {
-        (self.to_surface(to) - self.to_surface(from)) / self.unit
+        (self.surface_station(to) - self.surface_station(from)) / self.unit
     }
 
     /// Lengths on the surface, m, of a loop's stations from vertex `first` on, ascending.
@@ -174,7 +174,7 @@ impl Rail {
         (0..n)
             .map(|i| {
                 let turn = if first + i >= n { self.length } else { 0.0 };
-                self.to_surface(along[(first + i) % n] + turn)
+                self.surface_station(along[(first + i) % n] + turn)
             })
             .collect()
     }

@@ -37,7 +37,7 @@ pub struct Held {
     pub vertices: Vec<u32>,
     /// Plan arc lengths, ascending, over less than one turn, local units.
     pub along: Vec<f64>,
-    /// For each vertex the corner of the domain that it takes, or the mark; [`NO_CORNER`] for most.
+    /// For each vertex the corner of the domain that it takes, or the mark; `NO_CORNER` for most.
     pub corner: Vec<u32>,
     /// Whether its corners are kinks.
     pub is_sharp: bool,
@@ -75,7 +75,7 @@ impl Sheet {
         let mut held = Vec::with_capacity(loops.len());
         for (label, placed) in loops.iter().enumerate() {
             let rail = &ground.rails[label];
-            let stations: Vec<f64> = along[label].iter().map(|&s| rail.from_surface(s)).collect();
+            let stations: Vec<f64> = along[label].iter().map(|&s| rail.plan_station(s)).collect();
             held.push(Held::of(&dense.loops[label], placed, &stations, rail.length, first_corner));
             first_corner += placed.corners.len() as u32;
         }
@@ -122,7 +122,7 @@ impl Sheet {
         [before.unwrap_or(held.along[last] - length), after.unwrap_or(held.along[first] + length)]
     }
 
-    /// The corner that each coarse vertex takes; [`NO_CORNER`] for most.
+    /// The corner that each coarse vertex takes; `NO_CORNER` for most.
     pub fn coarse_corners(&self, coarse_vertices: usize) -> Vec<u32> {
         let mut corners = vec![NO_CORNER; coarse_vertices];
         for held in &self.loops {
