@@ -4,14 +4,16 @@
 //! that share a boundary point, which touch one re-entrant corner, then each get one of their own beside it.
 
 use super::graph::{Branch, End, Fork, Graph, Slot, plan, sector, stretch};
-use super::triangulation::Site;
+use super::triangulation::{Site, distance};
 use crate::domain::Domain;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 /// Forks with more edges are opened, and none with more is made by joining forks.
 pub(super) const MOST: usize = 6;
-/// How far an opened fork goes towards the middle of its boundary points.
+/// Forks nearer to each other than this share of their radius are moved apart,
+const NEAR: f64 = 0.15;
+/// this share of the way to the middle of their boundary points.
 const APART: f64 = 0.3;
 
 /// Opens forks until none has more than [`MOST`] edges.
@@ -20,7 +22,7 @@ pub(super) fn forks(graph: &mut Graph, domain: &Domain) {
     while f < graph.forks.len() {
         let crowded = graph.forks[f].is_some() && graph.valence(domain, f) > MOST;
         match crowded.then(|| best_cut(graph, domain, f)).flatten() {
-            Some(cut) => split(graph, domain, f, cut),
+            Some(cut) => split(graph, f, cut),
             None => f += 1,
         }
     }
@@ -51,16 +53,13 @@ fn to_start(domain: &Domain, site: Site) -> f64 {
 }
 
 /// Makes two forks of one: the slots from `i` on to before `j`, and the others.
-fn split(graph: &mut Graph, domain: &Domain, f: usize, [i, j]: [usize; 2]) {
+fn split(graph: &mut Graph, f: usize, [i, j]: [usize; 2]) {
     let Some(fork) = graph.forks[f].take() else { return };
     let (n, branch, g) = (fork.ring.len(), graph.branches.len(), graph.forks.len());
     let part = |from: usize, to: usize, end: usize| {
         let mut ring: Vec<Slot> = (from..to).map(|k| fork.ring[k % n]).collect();
         ring.push(Slot { site: fork.ring[to % n].site, branch, end });
-        let mean = [0, 1]
-            .map(|k| ring.iter().map(|slot| plan(domain, slot.site)[k]).sum::<f64>() / ring.len() as f64);
-        let position = [0, 1].map(|k| fork.position[k] + APART * (mean[k] - fork.position[k]));
-        Fork { position, ring }
+        Fork { position: fork.position, ring }
     };
     let (first, second) = (part(i, j, 0), part(j, i + n, 1));
     let pairs = vec![[fork.ring[j].site, fork.ring[i].site]];
@@ -70,6 +69,33 @@ fn split(graph: &mut Graph, domain: &Domain, f: usize, [i, j]: [usize; 2]) {
     }
     graph.forks[f] = Some(first);
     graph.forks.push(Some(second));
+}
+
+/// Moves forks that lie on each other, opened ones and those whose discs are one, towards their own boundary points.
+pub(super) fn apart(graph: &mut Graph, domain: &Domain) {
+    let radius = |fork: &Fork| distance(fork.position, plan(domain, fork.ring[0].site));
+    let is_near = |a: &Fork, b: &Fork| distance(a.position, b.position) < NEAR * radius(a).min(radius(b));
+    let near: Vec<usize> = graph
+        .branches
+        .iter()
+        .flatten()
+        .filter_map(|branch| match branch.ends {
+            [End::Fork(f), End::Fork(g)] if f != g => {
+                let (first, second) = (graph.forks[f].as_ref()?, graph.forks[g].as_ref()?);
+                is_near(first, second).then_some([f, g])
+            }
+            _ => None,
+        })
+        .flatten()
+        .collect();
+    for f in graph.fork_numbers().into_iter().filter(|f| near.contains(f)) {
+        let Some(fork) = &mut graph.forks[f] else { continue };
+        let mean = |k: usize| {
+            fork.ring.iter().map(|slot| plan(domain, slot.site)[k]).sum::<f64>() / fork.ring.len() as f64
+        };
+        let mean = [mean(0), mean(1)];
+        fork.position = [0, 1].map(|k| fork.position[k] + APART * (mean[k] - fork.position[k]));
+    }
 }
 
 /// Gives forks that share a boundary point one each, in their order along the boundary. Of an odd number the middle one keeps it;
