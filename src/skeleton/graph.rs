@@ -54,9 +54,7 @@ pub(super) struct Graph {
 /// Leaves without a corner whose discs touch at less than this angle are no more than roughness of the boundary.
 const ROUGH: f64 = 65.0;
 /// Forks nearer to each other than this share of their radius are one.
-const NEAR: f64 = 0.05;
-/// A corner belongs to the tip of a branch if a chord of this share of the branch's width cuts both off.
-const FILLET: f64 = 0.2;
+pub(super) const NEAR: f64 = 0.05;
 /// Smooth ends further along the boundary than this many radii of their fork are corridors.
 const LONG: f64 = 2.5;
 
@@ -166,56 +164,6 @@ impl Graph {
         }
     }
 
-    /// Puts the tip of every smooth end on a corner near it (in a fillet), or else in the middle of the arc that the last disc
-    /// touches: where on an arc the triangles end is chance.
-    pub(super) fn center_tips(&mut self, domain: &Domain) {
-        for branch in self.branches.iter_mut().flatten() {
-            for end in 0..2 {
-                let End::Leaf(tip) = branch.ends[end] else { continue };
-                if tip.corner.is_none() {
-                    let pairs = branch.directed(end);
-                    let corner = corner_near(domain, tip, &pairs);
-                    branch.ends[end] = End::Leaf(corner.unwrap_or_else(|| centered(domain, tip, &pairs)));
-                }
-            }
-        }
-    }
-
-    /// Contracts the shortest branch between two forks that are nearer than a share of their radius or share a boundary point, and
-    /// together have not too many edges.
-    fn contract_where(&mut self, domain: &Domain, share: f64, most: usize) -> bool {
-        let shortest = (0..self.branches.len())
-            .filter_map(|b| Some((b, self.contractible(domain, b, share, most)?)))
-            .min_by(|(_, a), (_, b)| a.0.total_cmp(&b.0));
-        let Some((b, (_, first, second))) = shortest else { return false };
-        self.contract(domain, b, first, second);
-        true
-    }
-
-    /// Whether a branch may be contracted: its length by the smaller radius, and the slots at its ends.
-    fn contractible(
-        &self,
-        domain: &Domain,
-        b: usize,
-        share: f64,
-        most: usize,
-    ) -> Option<(f64, [usize; 2], [usize; 2])> {
-        let Some(Branch { ends: [End::Fork(f), End::Fork(g)], .. }) = self.branches[b] else { return None };
-        let (first, second) = (self.forks[f].as_ref()?, self.forks[g].as_ref()?);
-        if f == g {
-            return None;
-        }
-        let radius = |fork: &Fork| distance(fork.position, plan(domain, fork.ring[0].site));
-        let length = distance(first.position, second.position) / radius(first).min(radius(second));
-        let (i, j) = (slot_of(first, b, 0)?, slot_of(second, b, 1)?);
-        let same = |p: usize, q: usize| first.ring[p].site == second.ring[q].site;
-        let (n, m) = (first.ring.len(), second.ring.len());
-        let joined = length <= share || share >= NEAR && (same(i, (j + 1) % m) || same((i + 1) % n, j));
-        // Two boundary points become one on either side of the branch, which goes with both its ends.
-        let edges = || self.valence(domain, f) + self.valence(domain, g) - 4;
-        (joined && edges() <= most).then_some((length, [f, i], [g, j]))
-    }
-
     /// Edges at the vertex of a fork: to its boundary points, and along its branches except those that end in one quad.
     pub(super) fn valence(&self, domain: &Domain, f: usize) -> usize {
         let Some(fork) = &self.forks[f] else { return 0 };
@@ -260,32 +208,6 @@ impl Graph {
         });
         let corner = |c| domain.corner(c).map(|(loop_number, s)| Site { loop_number, s, corner: Some(c) });
         rings.chain(tips).chain((0..domain.corner_count()).filter_map(corner)).collect()
-    }
-
-    /// Makes one fork of the two at the ends of a branch, which is in slot `i` of fork `f` and in slot `j` of fork `g`.
-    fn contract(&mut self, domain: &Domain, branch: usize, [f, i]: [usize; 2], [g, j]: [usize; 2]) {
-        let (Some(first), Some(second)) = (self.forks[f].take(), self.forks[g].take()) else { return };
-        let (n, m) = (first.ring.len(), second.ring.len());
-        // The two points on the right of the branch become one, and the two on its left.
-        let right = between(domain, first.ring[i].site, second.ring[(j + 1) % m].site);
-        let left = between(domain, second.ring[j].site, first.ring[(i + 1) % n].site);
-        let mut ring = Vec::with_capacity(n + m - 2);
-        ring.extend((1..n).map(|k| first.ring[(i + k) % n]));
-        ring.extend((1..m).map(|k| second.ring[(j + k) % m]));
-        // The slots start after the branch on the one side and on the other.
-        if let Some(slot) = ring.first_mut() {
-            slot.site = left;
-        }
-        if let Some(slot) = ring.get_mut(n - 1) {
-            slot.site = right;
-        }
-        let weight = |k: usize| k as f64 / (n + m) as f64;
-        let position = [0, 1].map(|k| weight(n) * first.position[k] + weight(m) * second.position[k]);
-        self.branches[branch] = None;
-        for slot in &ring {
-            self.attach(slot.branch, slot.end, End::Fork(f));
-        }
-        self.forks[f] = Some(Fork { position, ring });
     }
 
     pub(super) fn attach(&mut self, branch: usize, end: usize, to: End) {
@@ -384,38 +306,6 @@ impl Branch {
     }
 }
 
-/// The corner of the domain that lies about a smooth tip, within a chord that is short against the widest of the branch.
-fn corner_near(domain: &Domain, tip: Site, pairs: &[[Site; 2]]) -> Option<Site> {
-    let chord = |[right, left]: &[Site; 2]| distance(plan(domain, *right), plan(domain, *left));
-    let widest = pairs.iter().map(chord).fold(0.0, f64::max);
-    // Going away from the tip, the boundary runs from the left over the tip to the right.
-    let &[right, left] = pairs
-        .iter()
-        .take_while(|pair| {
-            chord(pair) < FILLET * widest && pair.iter().all(|s| s.loop_number == tip.loop_number)
-        })
-        .last()?;
-    let whole = stretch(domain, left, right);
-    domain.loop_corners(tip.loop_number).find_map(|corner| {
-        let (loop_number, s) = domain.corner(corner)?;
-        let site = Site { loop_number, s, corner: Some(corner) };
-        (stretch(domain, left, site) <= whole).then_some(site)
-    })
-}
-
-/// The middle of the arc about a tip that lies on its disc; `pairs` go away from the tip.
-fn centered(domain: &Domain, tip: Site, pairs: &[[Site; 2]]) -> Site {
-    let Some(&[a, b]) = pairs.first() else { return tip };
-    let center = circumcenter(plan(domain, a), plan(domain, tip), plan(domain, b));
-    let radius = distance(center, plan(domain, tip));
-    let touches = |site: Site| (distance(center, plan(domain, site)) - radius).abs() < 0.01 * radius;
-    // Going away from the tip, the boundary runs from the left over the tip to the right.
-    match pairs.iter().take_while(|[right, left]| touches(*right) && touches(*left)).last() {
-        Some(&[right, left]) => along(domain, left, right, 0.5),
-        None => tip,
-    }
-}
-
 /// Whether the smooth end that a slot leads to is so far off that one quad would be several times as long as wide.
 pub(super) fn is_long(domain: &Domain, fork: &Fork, slot: usize, tip: Site) -> bool {
     let (right, left) = (fork.ring[slot].site, fork.ring[(slot + 1) % fork.ring.len()].site);
@@ -427,7 +317,7 @@ pub(super) fn is_long(domain: &Domain, fork: &Fork, slot: usize, tip: Site) -> b
 }
 
 /// The slot of a fork that holds one end of a branch.
-fn slot_of(fork: &Fork, branch: usize, end: usize) -> Option<usize> {
+pub(super) fn slot_of(fork: &Fork, branch: usize, end: usize) -> Option<usize> {
     fork.ring.iter().position(|s| s.branch == branch && s.end == end)
 }
 

@@ -4,19 +4,22 @@
 //! patterns for shell structures*: points along the boundary are triangulated (Delaunay); triangles with three neighbours are the
 //! forks of the medial axis; the domain is cut along the branches between forks and from each fork to the boundary points that
 //! its disc touches. Here forks are then moved to where they are exactly equally far from their boundaries, roughness of a
-//! boundary is pruned, forks that coincide are joined, corners that the axis misses get a strip, and smooth ends get a layer of
-//! quads along the boundary, so that no vertex of it has a single face.
+//! boundary is pruned, forks that coincide are joined or, where that makes a vertex of more than six edges, opened, corners that the
+//! axis misses get a strip, long smooth ends are corridors, and smooth ends get a layer of quads along the boundary, so that no
+//! vertex of it has a single face.
 
 mod forked;
 mod forkless;
 mod graph;
 mod initial;
+mod join;
 mod layout;
 mod number;
 mod open;
 pub mod picture;
 mod refine;
 mod tidy;
+mod tips;
 mod triangulation;
 
 pub use initial::{InitialError, initial};
