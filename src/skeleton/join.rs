@@ -76,8 +76,11 @@ impl Graph {
         if let Some(slot) = ring.get_mut(n - 1) {
             slot.site = right;
         }
-        let weight = |k: usize| k as f64 / (n + m) as f64;
-        let position = [0, 1].map(|k| weight(n) * first.position[k] + weight(m) * second.position[k]);
+        // By how many forks of three points each is made of, so that the order does not matter.
+        let weights = [n, m].map(|k| k.saturating_sub(2).max(1) as f64);
+        let position = [0, 1].map(|k| {
+            (weights[0] * first.position[k] + weights[1] * second.position[k]) / (weights[0] + weights[1])
+        });
         self.branches[branch] = None;
         for slot in &ring {
             self.attach(slot.branch, slot.end, End::Fork(f));
