@@ -56,7 +56,13 @@ impl Graph {
         let joined = length <= share || share >= NEAR && (same(i, (j + 1) % m) || same((i + 1) % n, j));
         // Two boundary points become one on either side of the branch, which goes with both its ends.
         let edges = || self.valence(domain, f) + self.valence(domain, g) - 4;
-        (joined && edges() <= most).then_some(Short { branch: b, length, ends: [[f, i], [g, j]] })
+        // A corner that is joined to another would be lost.
+        let loses = |p: usize, q: usize| {
+            let [a, b] = [first.ring[p].site, second.ring[q].site];
+            a != b && a.corner.is_some() && b.corner.is_some()
+        };
+        let lost = loses(i, (j + 1) % m) || loses((i + 1) % n, j);
+        (joined && !lost && edges() <= most).then_some(Short { branch: b, length, ends: [[f, i], [g, j]] })
     }
 
     /// Makes one fork of the two at the ends of a branch, which is in slot `i` of fork `f` and in slot `j` of fork `g`.
