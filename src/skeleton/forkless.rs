@@ -10,6 +10,9 @@ use std::f64::consts::{FRAC_PI_4, PI, TAU};
 /// 4πA/L² of a loop in plan from which on it counts as a disc.
 const ROUND: f64 = 0.95;
 
+/// Outer loops longer than this many lengths of the hole's have more rows than it.
+const WIDE: f64 = 4.0;
+
 /// Whether the domain is one smooth loop, nearly round.
 pub(super) fn is_disc(domain: &Domain) -> bool {
     let outer = &domain.loops[0];
@@ -125,6 +128,10 @@ pub(super) fn ring(domain: &Domain, branch: &Branch) -> Option<Layout> {
     spread(domain, &mut inner);
     inner.reverse();
     let n = chosen.len();
+    let wide = domain.loops[0].length() > WIDE * domain.loops[inner[0].loop_number].length();
+    if wide && domain.loops[0].corners().is_empty() {
+        return Some(wide_ring(domain, &outer[..n], &inner[..n]));
+    }
     let mut layout = Layout::default();
     let rings = [outer, inner]
         .map(|sites| sites[..n].iter().map(|&s| layout.on_boundary(domain, s)).collect::<Vec<_>>());
@@ -133,6 +140,30 @@ pub(super) fn ring(domain: &Domain, branch: &Branch) -> Option<Layout> {
         layout.faces.push([rings[0][i], rings[0][j], rings[1][j], rings[1][i]]);
     }
     Some(layout)
+}
+
+/// A ring of quads about a small hole within a block with a corner at every section: the outer loop may have more rows than the
+/// hole has room for.
+fn wide_ring(domain: &Domain, outer: &[Site], inner: &[Site]) -> Layout {
+    let mut layout = Layout::default();
+    let n = outer.len();
+    let sections: Vec<[usize; 5]> = (0..n)
+        .map(|i| {
+            let (before, after) = (outer[(i + n - 1) % n], outer[(i + 1) % n]);
+            let sides = [along(domain, before, outer[i], 2.0 / 3.0), along(domain, outer[i], after, 1.0 / 3.0)];
+            let [before, tip, after, hole] =
+                [sides[0], outer[i], sides[1], inner[i]].map(|site| layout.on_boundary(domain, site));
+            let (p, q) = (layout.vertices[tip].xy, layout.vertices[hole].xy);
+            [layout.inside([0, 1].map(|k| 0.5 * (p[k] + q[k]))), before, tip, after, hole]
+        })
+        .collect();
+    for i in 0..n {
+        let ([fork, before, tip, after, hole], next) = (sections[i], sections[(i + 1) % n]);
+        layout.faces.push([fork, before, tip, after]);
+        layout.faces.push([after, next[1], next[0], fork]);
+        layout.faces.push([fork, next[0], next[4], hole]);
+    }
+    layout
 }
 
 /// For every corner of either loop, the cross section in the middle of those that touch it.

@@ -81,6 +81,7 @@ fn decompose(domain: &Domain) -> Result<Layout, SkeletonError> {
     if !graph.fork_numbers().is_empty() {
         refine::forks(&mut graph, domain);
         open::forks(&mut graph, domain);
+        open::apart(&mut graph, domain);
         open::shared_points(&mut graph, domain);
         return Ok(forked::layout(&graph, domain));
     }

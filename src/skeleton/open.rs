@@ -4,15 +4,19 @@
 //! that share a boundary point, which touch one re-entrant corner, then each get one of their own beside it.
 
 use super::graph::{Branch, End, Fork, Graph, Slot, plan, sector, stretch};
-use super::triangulation::Site;
+use super::triangulation::{Site, distance};
 use crate::domain::Domain;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 /// Forks with more edges are opened, and none with more is made by joining forks.
 pub(super) const MOST: usize = 6;
-/// How far an opened fork goes towards the middle of its boundary points.
+/// Forks nearer to each other than this share of their radius are moved apart,
+const NEAR: f64 = 0.15;
+/// this share of the way to the middle of their boundary points.
 const APART: f64 = 0.3;
+/// Forks whose directions from a corner are off its middle by as much but for this angle in degrees are alike.
+const ALIKE: f64 = 10.0;
 
 /// Opens forks until none has more than [`MOST`] edges.
 pub(super) fn forks(graph: &mut Graph, domain: &Domain) {
@@ -20,7 +24,7 @@ pub(super) fn forks(graph: &mut Graph, domain: &Domain) {
     while f < graph.forks.len() {
         let crowded = graph.forks[f].is_some() && graph.valence(domain, f) > MOST;
         match crowded.then(|| best_cut(graph, domain, f)).flatten() {
-            Some(cut) => split(graph, domain, f, cut),
+            Some(cut) => split(graph, f, cut),
             None => f += 1,
         }
     }
@@ -51,16 +55,13 @@ fn to_start(domain: &Domain, site: Site) -> f64 {
 }
 
 /// Makes two forks of one: the slots from `i` on to before `j`, and the others.
-fn split(graph: &mut Graph, domain: &Domain, f: usize, [i, j]: [usize; 2]) {
+fn split(graph: &mut Graph, f: usize, [i, j]: [usize; 2]) {
     let Some(fork) = graph.forks[f].take() else { return };
     let (n, branch, g) = (fork.ring.len(), graph.branches.len(), graph.forks.len());
     let part = |from: usize, to: usize, end: usize| {
         let mut ring: Vec<Slot> = (from..to).map(|k| fork.ring[k % n]).collect();
         ring.push(Slot { site: fork.ring[to % n].site, branch, end });
-        let mean = [0, 1]
-            .map(|k| ring.iter().map(|slot| plan(domain, slot.site)[k]).sum::<f64>() / ring.len() as f64);
-        let position = [0, 1].map(|k| fork.position[k] + APART * (mean[k] - fork.position[k]));
-        Fork { position, ring }
+        Fork { position: fork.position, ring }
     };
     let (first, second) = (part(i, j, 0), part(j, i + n, 1));
     let pairs = vec![[fork.ring[j].site, fork.ring[i].site]];
@@ -72,8 +73,35 @@ fn split(graph: &mut Graph, domain: &Domain, f: usize, [i, j]: [usize; 2]) {
     graph.forks.push(Some(second));
 }
 
-/// Gives forks that share a boundary point one each, in their order along the boundary. Of an odd number the middle one keeps it;
-/// of an even number none, and a corner there gets a cross section of the corridor in the middle.
+/// Moves forks that lie on each other, opened ones and those whose discs are one, towards their own boundary points.
+pub(super) fn apart(graph: &mut Graph, domain: &Domain) {
+    let radius = |fork: &Fork| distance(fork.position, plan(domain, fork.ring[0].site));
+    let is_near = |a: &Fork, b: &Fork| distance(a.position, b.position) < NEAR * radius(a).min(radius(b));
+    let near: Vec<usize> = graph
+        .branches
+        .iter()
+        .flatten()
+        .filter_map(|branch| match branch.ends {
+            [End::Fork(f), End::Fork(g)] if f != g => {
+                let (first, second) = (graph.forks[f].as_ref()?, graph.forks[g].as_ref()?);
+                is_near(first, second).then_some([f, g])
+            }
+            _ => None,
+        })
+        .flatten()
+        .collect();
+    for f in graph.fork_numbers().into_iter().filter(|f| near.contains(f)) {
+        let Some(fork) = &mut graph.forks[f] else { continue };
+        let mean = |k: usize| {
+            fork.ring.iter().map(|slot| plan(domain, slot.site)[k]).sum::<f64>() / fork.ring.len() as f64
+        };
+        let mean = [mean(0), mean(1)];
+        fork.position = [0, 1].map(|k| fork.position[k] + APART * (mean[k] - fork.position[k]));
+    }
+}
+
+/// Gives forks that share a boundary point one each, in their order along the boundary. A corner goes to the fork that lies most
+/// nearly in its middle; if two do alike to neither, but to a cross section of the corridor between them.
 pub(super) fn shared_points(graph: &mut Graph, domain: &Domain) {
     let mut holders: BTreeMap<(usize, u64), Vec<[usize; 2]>> = BTreeMap::new();
     for f in graph.fork_numbers() {
@@ -87,27 +115,53 @@ pub(super) fn shared_points(graph: &mut Graph, domain: &Domain) {
         let chain = in_order(graph, &shared);
         let Some(site) = graph.slot(chain[0]).map(|slot| slot.site) else { continue };
         let [back, ahead] = room(domain, &taken, site);
-        let (count, half) = (chain.len(), chain.len() / 2);
-        for (k, &place) in chain.iter().enumerate() {
-            let way = if k < half {
-                -back * (half - k) as f64 / (half + 1) as f64
+        let twice = middle(graph, domain, &chain, site);
+        let (before, after) = (twice.div_ceil(2), chain.len() - 1 - twice / 2);
+        for (k, &place) in chain.iter().enumerate().filter(|(k, _)| 2 * k != twice) {
+            let way = if 2 * k < twice {
+                -back * (before - k) as f64 / (before + 1) as f64
             } else {
-                // The first of these is the middle one of an odd number.
-                ahead * (k + 1 - (count - half)) as f64 / (half + 1) as f64
+                ahead * (k - twice / 2) as f64 / (after + 1) as f64
             };
-            if way != 0.0 {
-                graph.move_site(place, shifted(domain, site, way));
-            }
+            graph.move_site(place, shifted(domain, site, way));
         }
         // No other corridor is to have a cross section there.
-        let middle = graph.slot(chain[half - 1]).filter(|_| count % 2 == 0).map(|slot| slot.branch);
-        for (_, branch) in graph.branches.iter_mut().enumerate().filter(|&(b, _)| Some(b) != middle) {
-            if let Some(branch) = branch {
-                let sites = branch.pairs.iter_mut().flatten();
-                sites.filter(|other| **other == site).for_each(|other| other.corner = None);
-            }
-        }
+        let kept = graph.slot(chain[twice / 2]).filter(|_| twice % 2 == 1).map(|slot| slot.branch);
+        let others = graph.branches.iter_mut().enumerate().filter(|&(b, _)| Some(b) != kept);
+        let sites = others.filter_map(|(_, branch)| branch.as_mut()).flat_map(|b| b.pairs.iter_mut().flatten());
+        sites.filter(|other| **other == site).for_each(|other| other.corner = None);
     }
+}
+
+/// Twice the place in a chain that a shared point belongs to; odd between two forks.
+fn middle(graph: &Graph, domain: &Domain, chain: &[[usize; 2]], site: Site) -> usize {
+    let last = chain.len() - 1;
+    if site.corner.is_none() {
+        return last;
+    }
+    let (inward, place) = (inward(domain, site), plan(domain, site));
+    let off: Vec<f64> = chain
+        .iter()
+        .filter_map(|&[f, _]| graph.forks[f].as_ref())
+        .map(|fork| {
+            let [x, y] = [0, 1].map(|k| fork.position[k] - place[k]);
+            libm::atan2(inward[0] * y - inward[1] * x, inward[0] * x + inward[1] * y).abs()
+        })
+        .collect();
+    let best = (0..off.len()).fold(0, |best, k| if off[k] < off[best] { k } else { best });
+    let alike = |k: &usize| *k != best && off.get(*k).is_some_and(|o| o - off[best] < ALIKE.to_radians());
+    match [best.wrapping_sub(1), best + 1].into_iter().find(alike) {
+        Some(other) => best + other,
+        None => 2 * best,
+    }
+}
+
+/// The direction from a corner into the domain, along the middle of its angle.
+fn inward(domain: &Domain, site: Site) -> [f64; 2] {
+    let boundary = &domain.loops[site.loop_number];
+    let (after, before) = (boundary.tangent(site.s), boundary.tangent(site.s - 1e-7 * boundary.length()));
+    let along = [0, 1].map(|k| before[k] + after[k]);
+    if site.loop_number == 0 { [-along[1], along[0]] } else { [along[1], -along[0]] }
 }
 
 /// Forks, by their slots with the shared point, as they follow each other along the boundary with the domain on the left.

@@ -29,16 +29,12 @@ pub fn svg(base: &BaseMesh, domain: &Domain, title: &str) -> Result<String, Base
          <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
     );
     for [a, b] in inner_edges(base) {
-        let ([x, y], [u, v]) = (at(&base.vertices[a as usize]), at(&base.vertices[b as usize]));
-        let _ = writeln!(text, "<path class=\"edge\" d=\"M{x:.1} {y:.1}L{u:.1} {v:.1}\"/>");
+        let points = around(domain, base.vertices[a as usize], base.vertices[b as usize]);
+        let _ = writeln!(text, "<path class=\"edge\" d=\"{}\"/>", path(points.iter().map(at)));
     }
     for boundary in &domain.loops {
         let points = boundary.sample(domain.size() / 300.0);
-        let outline: String =
-            points.iter().map(|&s| at(&boundary.point(s))).fold(String::new(), |mut o, [x, y]| {
-                let _ = write!(o, "{}{x:.1} {y:.1}", if o.is_empty() { "M" } else { "L" });
-                o
-            });
+        let outline = path(points.iter().map(|&s| at(&boundary.point(s))));
         let _ = writeln!(text, "<path class=\"boundary\" d=\"{outline}Z\"/>");
     }
     let (from, to) = (mesh.mesh.origin(mesh.marker).index(), mesh.mesh.end(mesh.marker).index());
@@ -48,6 +44,46 @@ pub fn svg(base: &BaseMesh, domain: &Domain, title: &str) -> Result<String, Base
     vertices(&mut text, base, at);
     text.push_str("</svg>\n");
     Ok(text)
+}
+
+/// The data of an SVG path through points.
+fn path(points: impl Iterator<Item = [f64; 2]>) -> String {
+    points.fold(String::new(), |mut path, [x, y]| {
+        let _ = write!(path, "{}{x:.1} {y:.1}", if path.is_empty() { "M" } else { "L" });
+        path
+    })
+}
+
+/// Points of an edge: straight, or where that would leave the domain bent around what is in its way. A coarse edge has ends but no
+/// way of its own.
+fn around(domain: &Domain, a: [f64; 3], b: [f64; 3]) -> Vec<[f64; 3]> {
+    const PARTS: usize = 24;
+    let clear = 0.012 * domain.size();
+    let mut points: Vec<[f64; 3]> =
+        (0..=PARTS).map(|k| [0, 1, 2].map(|i| a[i] + k as f64 / PARTS as f64 * (b[i] - a[i]))).collect();
+    if points.iter().all(|p| domain.contains([p[0], p[1]])) {
+        return vec![a, b];
+    }
+    for _ in 0..60 {
+        for k in 1..PARTS {
+            let (p, q) = (points[k - 1], points[k + 1]);
+            let middle = [0, 1, 2].map(|i| 0.5 * (p[i] + q[i]));
+            points[k] = inward(domain, middle, clear);
+        }
+    }
+    points
+}
+
+/// A point, or if it is outside the domain one that is so far inside, off the nearest point of the boundary.
+fn inward(domain: &Domain, p: [f64; 3], clear: f64) -> [f64; 3] {
+    if domain.contains([p[0], p[1]]) {
+        return p;
+    }
+    let gap = |q: &[f64; 3]| (q[0] - p[0]).hypot(q[1] - p[1]);
+    let nearest = domain.loops.iter().map(|l| l.closest_point(p)).min_by(|q, r| gap(q).total_cmp(&gap(r)));
+    let Some(q) = nearest else { return p };
+    let share = -clear / gap(&q);
+    [q[0] + share * (p[0] - q[0]), q[1] + share * (p[1] - q[1]), p[2]]
 }
 
 /// Every edge with faces on both sides, once.

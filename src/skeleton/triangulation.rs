@@ -33,6 +33,8 @@ pub(super) struct Triangulation {
 
 /// Samples per size of the domain to begin with.
 const FIRST: f64 = 240.0;
+/// Points nearer to a corner than this share of the spacing are left out.
+const FILLET: f64 = 0.25;
 /// Most samples.
 const MOST: usize = 30_000;
 
@@ -55,7 +57,13 @@ impl Triangulation {
         for (loop_number, boundary) in domain.loops.iter().enumerate() {
             let start = sites.len();
             let numbers = domain.loop_corners(loop_number);
-            for s in boundary.sample(spacing) {
+            // The kinks of a fillet beside its corner would only make branches and forks as small as it is.
+            let beside = |s: f64| {
+                let way = |c: f64| (s - c).abs().min(boundary.length() - (s - c).abs());
+                boundary.corners().iter().any(|&c| c != s && way(c) < FILLET * spacing)
+            };
+            let corners = boundary.corners();
+            for s in boundary.sample(spacing).into_iter().filter(|s| corners.contains(s) || !beside(*s)) {
                 let corner = boundary.corners().iter().position(|&c| c == s).map(|i| numbers.start + i);
                 let [x, y, _] = boundary.point(s);
                 sites.push(Site { loop_number, s, corner });
