@@ -150,7 +150,8 @@ fn wide_ring(domain: &Domain, outer: &[Site], inner: &[Site]) -> Layout {
     let sections: Vec<[usize; 5]> = (0..n)
         .map(|i| {
             let (before, after) = (outer[(i + n - 1) % n], outer[(i + 1) % n]);
-            let sides = [along(domain, before, outer[i], 2.0 / 3.0), along(domain, outer[i], after, 1.0 / 3.0)];
+            let sides =
+                [along(domain, before, outer[i], 2.0 / 3.0), along(domain, outer[i], after, 1.0 / 3.0)];
             let [before, tip, after, hole] =
                 [sides[0], outer[i], sides[1], inner[i]].map(|site| layout.on_boundary(domain, site));
             let (p, q) = (layout.vertices[tip].xy, layout.vertices[hole].xy);

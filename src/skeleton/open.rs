@@ -128,7 +128,8 @@ pub(super) fn shared_points(graph: &mut Graph, domain: &Domain) {
         // No other corridor is to have a cross section there.
         let kept = graph.slot(chain[twice / 2]).filter(|_| twice % 2 == 1).map(|slot| slot.branch);
         let others = graph.branches.iter_mut().enumerate().filter(|&(b, _)| Some(b) != kept);
-        let sites = others.filter_map(|(_, branch)| branch.as_mut()).flat_map(|b| b.pairs.iter_mut().flatten());
+        let sites =
+            others.filter_map(|(_, branch)| branch.as_mut()).flat_map(|b| b.pairs.iter_mut().flatten());
         sites.filter(|other| **other == site).for_each(|other| other.corner = None);
     }
 }
