@@ -8,6 +8,9 @@ use std::fmt::Write;
 /// A plan map, as a matrix by rows and a shift.
 type Map = ([[f64; 2]; 2], [f64; 2]);
 
+/// Corners of boundary loops.
+type Loops = &'static [&'static [[f64; 2]]];
+
 const HERE: Map = ([[1.0, 0.0], [0.0, 1.0]], [0.0, 0.0]);
 const QUARTER: Map = ([[0.0, -1.0], [1.0, 0.0]], [0.0, 0.0]);
 const MIRROR: Map = ([[-1.0, 0.0], [0.0, 1.0]], [0.0, 0.0]);
@@ -71,7 +74,7 @@ fn re_entrant_corners_and_rings_keep_every_limit() {
 #[test]
 fn a_domain_turned_or_mirrored_has_the_same_pattern() {
     let grid = "[topology]\ninitial = { grid = [3, 2] }\n[pattern]\npanels = 300";
-    let cases: [(&[&[[f64; 2]]], &str, &str); 5] = [
+    let cases: [(Loops, &str, &str); 5] = [
         (ELL, "[pattern]\npanels = 300", ""),
         (TEE, "[pattern]\npanels = 150", ""),
         (RING, "[pattern]\npanels = 300", ""),

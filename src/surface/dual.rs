@@ -94,7 +94,6 @@ impl<T: Algebra> Mul for Dual<T> {
     }
 }
 
-#[expect(clippy::suspicious_arithmetic_impl, reason = "the quotient rule")]
 impl<T: Algebra> Div for Dual<T> {
     type Output = Self;
     #[inline(always)]

@@ -272,7 +272,8 @@ pub fn drawn(kind: &str, rng: &mut Rng) -> Vec<LoopParams> {
             let n = 4 + random::below(rng, 5);
             let inner = 0.35 + 0.4 * a;
             let point = |k: usize| {
-                let (t, r) = (PI * k as f64 / n as f64, if k % 2 == 0 { 15.0 } else { 15.0 * inner });
+                let (t, r) =
+                    (PI * k as f64 / n as f64, if k.is_multiple_of(2) { 15.0 } else { 15.0 * inner });
                 [r * t.cos(), r * t.sin()]
             };
             (polyline(&(0..2 * n).map(point).collect::<Vec<_>>()), vec![([0.0, 0.0], 4.0)])

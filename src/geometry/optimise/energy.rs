@@ -152,14 +152,8 @@ fn quad_batch<const P: u32>(
     let quad = |l: usize| quads.get(l).unwrap_or(&quads[0]);
     let count: [Lanes; 4] = std::array::from_fn(|k| lanes(|l| counts.get(l).map_or(0.0, |c| c[k])));
     let points: [Lanes3; 4] = std::array::from_fn(|k| {
-        let mut gathered = [[0.0; LANES]; 3];
-        for l in 0..LANES {
-            let p = places.points[quad(l)[k] as usize];
-            for c in 0..3 {
-                gathered[c][l] = p[c];
-            }
-        }
-        gathered
+        let at: [Vec3; LANES] = std::array::from_fn(|l| places.points[quad(l)[k] as usize]);
+        std::array::from_fn(|c| lanes(|l| at[l][c]))
     });
     // Side k runs from vertex k to the next; corner k has the arms side k and minus side k − 1.
     let sides: [Lanes3; 4] = std::array::from_fn(|k| {
@@ -270,13 +264,11 @@ fn edge_batch<const P: u32>(
     by_point: &mut [Vec3],
 ) -> f64 {
     let edge = |l: usize| edges.get(l).unwrap_or(&edges[0]);
-    let mut d = [[0.0; LANES]; 3];
-    for l in 0..LANES {
+    let ways: [Vec3; LANES] = std::array::from_fn(|l| {
         let [u, v] = edge(l).map(|v| points[v as usize]);
-        for c in 0..3 {
-            d[c][l] = v[c] - u[c];
-        }
-    }
+        sub(v, u)
+    });
+    let d: Lanes3 = std::array::from_fn(|c| lanes(|l| ways[l][c]));
     let square = dot_lanes(&d, &d);
     let rest = weights.rest * weights.rest;
     let (to_rest, to_largest) = (1.0 / rest, 1.0 / (weights.range[1] * weights.range[1]));
