@@ -168,6 +168,41 @@ fn surfaces_reached_by_closest_point_are_optimised_too() {
     }
 }
 
+/// A vault of quads as an OBJ file, over a square with a round hole: closest point to facets.
+#[test]
+fn a_mesh_surface_is_optimised_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut obj = String::new();
+    for j in 0..=40 {
+        for i in 0..=40 {
+            let (x, y) = (-1.0 + 0.55 * f64::from(i), -1.0 + 0.55 * f64::from(j));
+            let _ = writeln!(obj, "v {x} {y} {}", 2.0 + 1.5 * libm::sin(x / 7.0) * libm::cos(y / 9.0));
+        }
+    }
+    for j in 0..40 {
+        for i in 0..40 {
+            let a = j * 41 + i + 1;
+            let _ = writeln!(obj, "f {a} {} {} {}", a + 1, a + 42, a + 41);
+        }
+    }
+    std::fs::write(folder.path().join("vault.obj"), obj).unwrap();
+    let file = folder.path().join("case.toml");
+    let text = "version = 1\n[[domain.loop]]\nkind = \"polyline\"\npoints_m = [[0, 0], [20, 0], [20, 20], [0, 20]]\n\
+                [[domain.loop]]\nkind = \"circle\"\ncenter_m = [10, 10]\nradius_m = 4\n\
+                [surface]\nkind = \"mesh\"\nfile = \"vault.obj\"\n[pattern]\npanels = 400\n";
+    std::fs::write(&file, text).unwrap();
+    let config = config::load(&file, &[]).unwrap();
+    let study = Study::new(&config, folder.path()).unwrap();
+    for string in ["", "APPTPPPTPPTAPTP", "APPTTPTPTAPPATTA*TP"] {
+        let design = design(&study, string);
+        assert!(is_good(&design), "{string}: {:?}", design.limits);
+        let off = |p: &[f64; 3]| {
+            study.surface.project(*p).iter().zip(p).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+        };
+        assert!(design.pattern.positions.iter().map(off).fold(0.0, f64::max) < 1e-9);
+    }
+}
+
 #[test]
 fn two_calls_give_the_same_bytes() {
     let study = polygon(ELL, HERE, "[pattern]\npanels = 300");
