@@ -124,6 +124,17 @@ fn token_bounds_and_seeds() {
 }
 
 #[test]
+fn what_is_optimised_needs_a_surface() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "version = 1\n[[domain.loop]]\nkind = \"polyline\"\npoints_m = [[0,0],[9,0],[9,9],[0,9]]\n[surface]\nkind = \"free\"\n\
+                [pattern]\nrelax = { kind = \"optimise\" }\n";
+    std::fs::write(folder.path().join("c.toml"), text).unwrap();
+    let (stderr, code) = run(folder.path(), &["check", "c.toml"]);
+    assert_eq!(code, Some(2), "{stderr}");
+    assert!(stderr.contains("c.toml:8: ") && stderr.contains("needs a surface"), "{stderr}");
+}
+
+#[test]
 fn damping_ideal_and_probability() {
     refused(
         "panels = 200",

@@ -5,7 +5,7 @@ use super::path::KeyPath;
 use super::schema::suggestion;
 use super::{Config, VERSION};
 use crate::domain::params::{Corners, LoopParams};
-use crate::geometry::params::{Density, InitialMesh};
+use crate::geometry::params::{Density, InitialMesh, RelaxKind};
 use crate::grammar::Tokens;
 use crate::objectives::{self, METRICS};
 use crate::search::params::RuleParams;
@@ -134,6 +134,11 @@ impl Rules<'_> {
 
     fn pattern(&mut self, config: &Config) {
         let pattern = &config.pattern;
+        if config.surface == (SurfaceParams::Free {}) && pattern.relax.kind == RelaxKind::Optimise {
+            let message = "found \"optimise\", which needs a surface, and surface.kind is \"free\"; allowed there: \"uniform\", \
+                           \"area\", \"cotangent\", \"force-density\"";
+            self.refuse("pattern.relax.kind", message);
+        }
         if pattern.density == Density::TargetLength && pattern.target_length_m.is_none() {
             let message = "missing, but density = \"target_length\" needs it; allowed: a number > 0";
             self.refuse("pattern.target_length_m", message);
