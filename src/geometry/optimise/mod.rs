@@ -49,8 +49,9 @@ const COARSENESS: f64 = 4.0;
 const ROUNDS: usize = 3;
 /// Times that strips with too long rungs get one row more.
 const REPAIRS: usize = 3;
-/// An energy over which a stage ends a try: of 117 designs of the Great Court none that went on from more came to keep its limits.
-const HOPELESS: f64 = 1e5;
+/// Energies after Q1, Q2 and Q3 over which a try ends: of 117 designs of the Great Court none that went on from more came to keep its
+/// limits.
+const HOPELESS: [f64; 3] = [1e4, 1e3, f64::INFINITY];
 
 /// One descent: weights of angles and lengths, half the barriers' power, most steps, relative gain that counts as small.
 struct Stage {
@@ -227,13 +228,13 @@ impl<'a> Optimiser<'a> {
             let mut run = Run::new(self.ground, &sheet);
             let (mut is_clean, mut is_good) = (false, false);
             let mut state = None;
-            for stage in &FINE {
+            for (stage, hopeless) in FINE.iter().zip(HOPELESS) {
                 let energy = run.stage(stage, self.task.aims, 1.0);
                 is_clean = energy.is_finite();
                 let found = run.net.state(run.x.clone());
                 is_good = is_clean && self.keeps_limits(&self.pattern(&sheet, &found));
                 state = Some(found);
-                if is_good || !is_clean || energy > HOPELESS {
+                if is_good || !is_clean || energy > hopeless {
                     break;
                 }
             }
