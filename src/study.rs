@@ -9,11 +9,10 @@ mod supports;
 use crate::config::Config;
 use crate::domain::{self, Domain, DomainError};
 use crate::evolve::{FAILED, Violation};
-use crate::geometry::check;
 use crate::geometry::limits::{self, LimitExcess, Limits};
 use crate::geometry::metrics::{self, Fabrication};
 use crate::geometry::params::{Pinched, RulesParam};
-use crate::geometry::{self, Pattern, PatternParams, Rejection};
+use crate::geometry::{self, Pattern, PatternParams, Rejection, Shaped};
 use crate::grammar::{self, Decoded, Rules, Tokens};
 use crate::mesh::distance::deletions;
 use crate::mesh::isomorphism::{Equivalence, Symmetry, canonical_mesh_under};
@@ -299,8 +298,7 @@ impl Study {
             return Err(rejection.into());
         }
         let surface = self.surface.as_ref();
-        let pattern = geometry::shape(&topology, &self.domain, surface, &self.pattern)?;
-        let refused = check::check(&pattern, &self.domain, surface).err();
+        let Shaped { pattern, refused } = geometry::shape(&topology, &self.domain, surface, &self.pattern)?;
         let fabrication = metrics::measure(&pattern, &topology, &self.domain);
         let limits = limits::excesses(&(&fabrication).into(), &self.limits);
         let design = Design { topology, pattern, fabrication, limits, response: None };

@@ -14,7 +14,7 @@ use quadrille::config;
 use quadrille::domain::Domain;
 use quadrille::geometry::metrics::{Fabrication, measure};
 use quadrille::geometry::params::Pinched;
-use quadrille::geometry::{Pattern, check, develop, limits, shape, topological_rejection};
+use quadrille::geometry::{Pattern, Shaped, check, develop, limits, shape, topological_rejection};
 use quadrille::grammar::Tokens;
 use quadrille::mesh::CanonicalMesh;
 use quadrille::output::svg::{Shade, svg};
@@ -228,7 +228,9 @@ fn draw(
     name: &str,
 ) -> Result<(), Box<dyn Error>> {
     let mesh = study.topology(&row.tokens);
-    let Ok(pattern) = shape(&mesh, &study.domain, study.surface.as_ref(), params) else { return Ok(()) };
+    let Ok(Shaped { pattern, .. }) = shape(&mesh, &study.domain, study.surface.as_ref(), params) else {
+        return Ok(());
+    };
     let mut values = vec![0.0; pattern.panels.len()];
     for panel in check::folded_panels(&pattern, study.surface.as_ref()) {
         values[panel as usize] = 1.0;

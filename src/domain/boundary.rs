@@ -85,15 +85,17 @@ impl BoundaryLoop {
     ) -> Self {
         corner_parameters.sort_by(f64::total_cmp);
         let surface = (surface.kind() != SurfaceKind::Free).then(|| Arc::clone(surface));
-        let mut boundary = Self {
-            curve,
-            surface,
-            corner_parameters,
-            corners: Vec::new(),
-            cells: Vec::new(),
-            length: 0.0,
-            way,
-        };
+        Self::measured(curve, surface, corner_parameters, way)
+    }
+
+    fn measured(
+        curve: Curve,
+        surface: Option<Arc<dyn Surface>>,
+        corner_parameters: Vec<f64>,
+        way: f64,
+    ) -> Self {
+        let (corners, cells) = (Vec::new(), Vec::new());
+        let mut boundary = Self { curve, surface, corner_parameters, corners, cells, length: 0.0, way };
         boundary.measure();
         boundary.corners = boundary.corner_parameters.iter().map(|&t| boundary.arc_length(t)).collect();
         boundary
@@ -201,19 +203,8 @@ impl BoundaryLoop {
     }
 
     /// The same loop in plan, by its plan length.
-    pub fn in_plan(&self) -> Self {
-        let mut flat = Self {
-            curve: self.curve.flattened(),
-            surface: None,
-            corner_parameters: self.corner_parameters.clone(),
-            corners: Vec::new(),
-            cells: Vec::new(),
-            length: 0.0,
-            way: self.way,
-        };
-        flat.measure();
-        flat.corners = flat.corner_parameters.iter().map(|&t| flat.arc_length(t)).collect();
-        flat
+    pub(super) fn in_plan(&self) -> Self {
+        Self::measured(self.curve.flattened(), None, self.corner_parameters.clone(), self.way)
     }
 
     /// Point and unit tangent at arc length `s`, modulo the length.

@@ -49,6 +49,8 @@ const TURN: f64 = 0.1;
 pub struct Domain {
     /// The boundary loops, all counter-clockwise in plan; loop 0 is the outer one, the others are holes.
     pub loops: Vec<BoundaryLoop>,
+    /// The same loops in plan, by their plan lengths.
+    pub plan_loops: Vec<BoundaryLoop>,
     /// Curve parameter of the mark on loop 0; it counts where no loop has a corner.
     mark: f64,
     /// Area of the surface within the boundary, m².
@@ -109,12 +111,13 @@ impl Domain {
             }
             Some([x, y]) => curves[0].closest([x, y, 0.0], true),
         };
-        let loops = curves
+        let loops: Vec<BoundaryLoop> = curves
             .into_iter()
             .zip(corners)
             .map(|(curve, corners)| BoundaryLoop::new(curve, surface, corners, way))
             .collect();
-        Ok(Self { loops, mark, surface_area })
+        let plan_loops = loops.iter().map(BoundaryLoop::in_plan).collect();
+        Ok(Self { loops, plan_loops, mark, surface_area })
     }
 
     /// Corners of all loops together.

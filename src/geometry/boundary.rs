@@ -3,6 +3,7 @@
 use super::coarse::Coarse;
 use super::corners::LoopCorners;
 use super::dense::Dense;
+use super::pattern::Panel;
 use super::rejection::Rejection;
 use crate::domain::Domain;
 
@@ -20,6 +21,26 @@ pub struct BoundaryLoop {
     pub is_sharp: bool,
     /// Length of the curve, m.
     pub length: f64,
+}
+
+/// For each of `count` vertices, whether it is one of a boundary's.
+pub fn marked<'a>(count: usize, boundary: impl Iterator<Item = &'a u32>) -> Vec<bool> {
+    let mut on_boundary = vec![false; count];
+    boundary.for_each(|&v| on_boundary[v as usize] = true);
+    on_boundary
+}
+
+/// Inner vertices of panels that touch the boundary, ascending: only these can leave the domain without a corner turning over.
+pub fn beside(panels: &[Panel], on_boundary: &[bool]) -> Vec<u32> {
+    let mut is_beside = vec![false; on_boundary.len()];
+    for panel in panels.iter().map(Panel::corners) {
+        if panel.iter().any(|&v| on_boundary[v as usize]) {
+            for &v in panel {
+                is_beside[v as usize] = !on_boundary[v as usize];
+            }
+        }
+    }
+    (0..is_beside.len() as u32).filter(|&v| is_beside[v as usize]).collect()
 }
 
 /// Finds the dense vertex of every corner, also of those that no coarse vertex took.

@@ -1,5 +1,6 @@
 //! Folds, vertices outside the domain (GEOMETRY §2.5), vertices at one place (PATTERN §5).
 
+use super::boundary;
 use super::pattern::{Panel, Pattern};
 use super::rejection::Rejection;
 use super::vector::{Vec3, add, cross, distance, dot, norm, scale, sub};
@@ -75,10 +76,7 @@ pub fn vertices_outside(pattern: &Pattern, domain: &Domain, surface: &dyn Surfac
     if surface.kind() == SurfaceKind::Free {
         return Vec::new();
     }
-    let mut on_boundary = vec![false; pattern.positions.len()];
-    for &v in pattern.loops.iter().flatten() {
-        on_boundary[v as usize] = true;
-    }
+    let on_boundary = boundary::marked(pattern.positions.len(), pattern.loops.iter().flatten());
     (0..pattern.positions.len())
         .filter(|&v| !on_boundary[v] && !domain.contains([pattern.positions[v][0], pattern.positions[v][1]]))
         .map(|v| v as u32)

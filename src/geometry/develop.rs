@@ -48,21 +48,34 @@ pub fn develop(
     surface: &dyn Surface,
     params: &PatternParams,
 ) -> Result<Pattern, Rejection> {
-    let pattern = shape(mesh, domain, surface, params)?;
-    check::check(&pattern, domain, surface)?;
-    Ok(pattern)
+    let Shaped { pattern, refused } = shape(mesh, domain, surface, params)?;
+    refused.map_or(Ok(pattern), Err)
 }
 
-/// As [`develop`], without the check at the end: to look at what is wrong with a folded pattern.
+/// A pattern, sound or not.
+pub struct Shaped {
+    /// The pattern.
+    pub pattern: Pattern,
+    /// What [`check::check`] says of it; `None` of a sound one.
+    pub refused: Option<Rejection>,
+}
+
+impl Shaped {
+    pub(super) fn of(pattern: Pattern, domain: &Domain, surface: &dyn Surface) -> Self {
+        Self { refused: check::check(&pattern, domain, surface).err(), pattern }
+    }
+}
+
+/// As [`develop`], a pattern that is not sound included: to look at what is wrong with it.
 ///
 /// # Errors
-/// The [`Rejection`] of the first step that fails.
+/// The [`Rejection`] of the first step that leaves no pattern.
 pub fn shape(
     mesh: &CanonicalMesh,
     domain: &Domain,
     surface: &dyn Surface,
     params: &PatternParams,
-) -> Result<Pattern, Rejection> {
+) -> Result<Shaped, Rejection> {
     let coarse = Coarse::of(mesh);
     if coarse.loops.len() != domain.loops.len() {
         return Err(Rejection::OtherLoops { mesh: coarse.loops.len(), domain: domain.loops.len() });
@@ -80,11 +93,12 @@ pub fn shape(
         return optimiser.run(first);
     }
     let rows = optimiser.pattern_rows(&probe)?;
-    let pattern = stage.relaxed(&rows, params, &limits, Folds::Leave)?;
-    if check::check(&pattern, domain, surface).is_ok() {
-        return Ok(pattern);
-    }
-    stage.relaxed(&rows, params, &limits, Folds::Unfold)
+    let relaxed = |folds| {
+        let pattern = stage.relaxed(&rows, params, &limits, folds)?;
+        Ok(Shaped::of(pattern, domain, surface))
+    };
+    let shaped = relaxed(Folds::Leave)?;
+    if shaped.refused.is_some() { relaxed(Folds::Unfold) } else { Ok(shaped) }
 }
 
 /// The net of equal force densities held by the boundary, then back onto the surface.
@@ -94,10 +108,7 @@ fn balance(
     placed: &mut Placed,
     surface: &dyn Surface,
 ) -> Result<(), Rejection> {
-    let mut is_held = vec![false; dense.vertex_count];
-    for &v in dense.loops.iter().flatten() {
-        is_held[v as usize] = true;
-    }
+    let is_held = boundary::marked(dense.vertex_count, dense.loops.iter().flatten());
     let densities = vec![1.0; edges.list.len()];
     let net = force_density::solve(&placed.positions, &edges.list, &densities, &[], &is_held)?;
     for (v, place) in net.into_iter().enumerate().filter(|&(v, _)| !is_held[v]) {

@@ -1,5 +1,6 @@
 //! Fabrication metrics of a dense pattern (GEOMETRY §3); all to be minimised.
 
+use super::boundary;
 use super::check::{center, vector_area};
 use super::coarse::{Coarse, corners_of};
 use super::outline;
@@ -183,11 +184,12 @@ pub fn valences(pattern: &Pattern) -> Vec<usize> {
 
 /// The least of the valences of inner vertices.
 pub fn least_inner(valences: &[usize], pattern: &Pattern) -> Option<usize> {
-    let mut is_inner = vec![true; valences.len()];
-    for &v in pattern.loops.iter().flatten() {
-        is_inner[v as usize] = false;
-    }
-    valences.iter().zip(is_inner).filter_map(|(&valence, is_inner)| is_inner.then_some(valence)).min()
+    let on_boundary = boundary::marked(valences.len(), pattern.loops.iter().flatten());
+    valences
+        .iter()
+        .zip(on_boundary)
+        .filter_map(|(&valence, on_boundary)| (!on_boundary).then_some(valence))
+        .min()
 }
 
 /// Smallest angle of all corners of all panels, triangles included, rad; 0 where an arm has no length.

@@ -31,7 +31,7 @@ pub mod topology;
 pub mod untangle;
 pub mod vector;
 
-pub use develop::{develop, shape, topological_rejection};
+pub use develop::{Shaped, develop, shape, topological_rejection};
 pub use params::{PatternParams, TopologyParams};
 pub use pattern::{Panel, Pattern};
 pub use rejection::Rejection;

@@ -1,7 +1,7 @@
 //! Relaxing a dense pattern: guarded Jacobi smoothing on its constraints (GEOMETRY §2.4). Boundary vertices slide along their
 //! curves on a surface; on a free surface they stay where placing put them.
 
-use super::boundary::BoundaryLoop;
+use super::boundary::{self, BoundaryLoop};
 use super::params::{RelaxKind, RelaxParams};
 use super::pattern::Panel;
 use super::place::Placed;
@@ -63,21 +63,10 @@ impl Mesh {
     /// Prepares a dense mesh of `vertex_count` vertices.
     pub fn new(vertex_count: usize, panels: &[Panel], edges: &[[u32; 2]], loops: &[BoundaryLoop]) -> Self {
         let quads: Vec<[u32; 4]> = panels.iter().map(Panel::as_quad).collect();
-        let mut on_boundary = vec![false; vertex_count];
-        for &v in loops.iter().flat_map(|l| &l.vertices) {
-            on_boundary[v as usize] = true;
-        }
-        let mut near = vec![false; vertex_count];
-        for quad in &quads {
-            if quad.iter().any(|&v| on_boundary[v as usize]) {
-                for &v in quad {
-                    near[v as usize] = !on_boundary[v as usize];
-                }
-            }
-        }
+        let on_boundary = boundary::marked(vertex_count, loops.iter().flat_map(|l| &l.vertices));
         Self {
             around: Around::of(vertex_count, panels),
-            near_boundary: (0..vertex_count as u32).filter(|&v| near[v as usize]).collect(),
+            near_boundary: boundary::beside(panels, &on_boundary),
             edges: edges.to_vec(),
             loops: loops.to_vec(),
             quads,

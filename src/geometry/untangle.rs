@@ -28,21 +28,13 @@ const MARGIN: f64 = 0.02;
 /// Largest weight w of vertices beyond a smooth loop.
 const MOST_WEIGHT: f64 = 1e4;
 
-/// The unknowns after untangling, and whether nothing is folded or outside.
-pub struct Untangled {
-    /// Unknowns of the net.
-    pub x: Vec<f64>,
-    /// Whether every corner turns left, boundary vertices keep their order, and all are inside.
-    pub is_clean: bool,
-}
-
-/// Moves the vertices of a plan net until every corner turns left; leaves them where that is so already. `rest` is ℓ in the net's
-/// units. Gives up after a fixed number of steps: the result may still be folded.
-pub fn untangle(net: &Net<'_>, rest: f64) -> Untangled {
+/// The unknowns of a plan net moved until every corner turns left, boundary vertices keep their order and all are inside; `None` where
+/// that is so already. `rest` is ℓ in the net's units. Gives up after a fixed number of steps: the result may still be folded.
+pub fn untangle(net: &Net<'_>, rest: f64) -> Option<Vec<f64>> {
     let mut flat = Flat::new(net, rest);
     let mut x = net.start();
     if flat.is_clean(&x) {
-        return Untangled { x, is_clean: true };
+        return None;
     }
     if let Some(factor) = preconditioner(net, &flat.places) {
         let bounds = Bounds { iterations: STEPS, tolerance: 1e-4, rest };
@@ -58,12 +50,11 @@ pub fn untangle(net: &Net<'_>, rest: f64) -> Untangled {
             flat.outside_weight = ((1u64 << round) as f64).min(MOST_WEIGHT);
             descend(net, &mut flat, &factor, &mut x, bounds);
             if flat.is_clean(&x) {
-                return Untangled { x, is_clean: true };
+                break;
             }
         }
     }
-    let is_clean = flat.least(&x) > 0.0 && !flat.is_outside(&x);
-    Untangled { x, is_clean }
+    Some(x)
 }
 
 /// A few steps more down the same energy, where no corner is folded: panels come nearer to squares of edge length `rest`.

@@ -41,10 +41,8 @@ pub fn preconditioner(net: &Net<'_>, places: &Places) -> Option<Factor> {
     let mut matrix = Symmetric { diagonal: vec![SHIFT; net.unknowns], entries: Vec::new() };
     for &[u, v] in &net.sheet.edges.list {
         let (a, b) = (net.columns(places, u), net.columns(places, v));
-        for (columns, _) in [(&a, 0), (&b, 1)] {
-            for &(i, d) in columns {
-                matrix.diagonal[i as usize] += d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-            }
+        for &(i, d) in a.iter().chain(&b) {
+            matrix.diagonal[i as usize] += d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
         }
         for &(i, d) in &a {
             for &(j, e) in &b {

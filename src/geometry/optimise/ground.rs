@@ -14,7 +14,7 @@ pub struct Ground<'a> {
     /// Length of the local unit, m.
     unit: f64,
     /// One for each boundary loop.
-    pub rails: Vec<Rail>,
+    pub rails: Vec<Rail<'a>>,
 }
 
 impl<'a> Ground<'a> {
@@ -23,7 +23,8 @@ impl<'a> Ground<'a> {
         let [low, high] = domain.bounds();
         let middle = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
         let origin = [middle[0], middle[1], domain.loops[0].point(0.0)[2]];
-        let rails = domain.loops.iter().map(|curve| Rail::new(curve, middle, unit)).collect();
+        let rail = |(curve, flat): (&'a BoundaryLoop, &'a BoundaryLoop)| Rail::new(curve, flat, middle, unit);
+        let rails = domain.loops.iter().zip(&domain.plan_loops).map(rail).collect();
         Self { surface, domain, origin, unit, rails }
     }
 
@@ -44,7 +45,9 @@ impl<'a> Ground<'a> {
 
     /// Sets the heights of all points, and the slopes of the surface there.
     pub fn lift(&self, points: &mut [Vec3], slopes: &mut [[f64; 2]]) {
-        self.to_metres(points);
+        for point in points.iter_mut() {
+            *point = self.global(*point);
+        }
         self.surface.lift_all(points, slopes);
         for point in points {
             *point = self.local(*point);
@@ -91,7 +94,7 @@ impl<'a> Ground<'a> {
             .then(|| (sign * distance / self.unit, way.map(|d| sign * d / distance)))
     }
 
-    /// The boundary point nearest to a point in plan, and whether the point is so near that it gives no direction.
+    /// The boundary point nearest to a point in plan.
     pub fn nearest_boundary(&self, point: Vec3) -> Vec3 {
         let given = self.global(point);
         let plan_distance =
@@ -104,20 +107,14 @@ impl<'a> Ground<'a> {
             .min_by(|a, b| plan_distance(a).total_cmp(&plan_distance(b)));
         nearest.map_or(point, |p| self.local(p))
     }
-
-    fn to_metres(&self, points: &mut [Vec3]) {
-        for point in points {
-            *point = self.global(*point);
-        }
-    }
 }
 
 /// A boundary loop in plan by its plan length, in local units.
-pub struct Rail {
+pub struct Rail<'a> {
     /// The curve in plan, m.
-    flat: BoundaryLoop,
+    flat: &'a BoundaryLoop,
     /// The same on the surface, m.
-    curve: BoundaryLoop,
+    curve: &'a BoundaryLoop,
     middle: [f64; 2],
     unit: f64,
     /// Its plan length, local units.
@@ -133,10 +130,9 @@ pub struct Foot {
     pub tangent: [f64; 2],
 }
 
-impl Rail {
-    fn new(curve: &BoundaryLoop, middle: [f64; 2], unit: f64) -> Self {
-        let flat = curve.in_plan();
-        Self { length: flat.length() / unit, flat, curve: curve.clone(), middle, unit }
+impl<'a> Rail<'a> {
+    fn new(curve: &'a BoundaryLoop, flat: &'a BoundaryLoop, middle: [f64; 2], unit: f64) -> Self {
+        Self { length: flat.length() / unit, flat, curve, middle, unit }
     }
 
     /// The point at a plan length, modulo the loop's.

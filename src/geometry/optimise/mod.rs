@@ -16,15 +16,14 @@ mod rows;
 mod sheet;
 
 pub use ground::Ground;
-pub use sheet::{Held, Sheet};
+pub use sheet::{Sheet, State};
 
-use super::check;
 use super::coarse::Coarse;
 use super::corners::LoopCorners;
 use super::dense::panel_count;
 use super::density::{self, Fineness};
+use super::develop::Shaped;
 use super::limits::{self, Extremes, Limits};
-use super::pattern::Pattern;
 use super::rejection::Rejection;
 use super::sparse::Factor;
 use super::untangle::untangle;
@@ -49,9 +48,8 @@ const COARSENESS: f64 = 4.0;
 const ROUNDS: usize = 3;
 /// Times that strips with too long rungs get one row more.
 const REPAIRS: usize = 3;
-/// Energies after Q1, Q2 and Q3 over which a try ends: of 117 designs of the Great Court none that went on from more came to keep its
-/// limits.
-const HOPELESS: [f64; 3] = [1e4, 1e3, f64::INFINITY];
+/// Energies after Q1 and Q2 over which a try ends: of 117 designs of the Great Court none that went on from more came to keep its limits.
+const HOPELESS: [f64; 2] = [1e4, 1e3];
 
 /// One descent: weights of angles and lengths, half the barriers' power, most steps, relative gain that counts as small.
 struct Stage {
@@ -117,11 +115,20 @@ pub struct Optimiser<'a> {
     caps: Vec<u32>,
 }
 
+/// What one stage leaves.
+struct Descended {
+    energy: f64,
+    state: State,
+    shaped: Shaped,
+    /// Whether it keeps all limits.
+    is_good: bool,
+}
+
 /// A sheet after its last descent.
 struct Tried {
     sheet: Sheet,
-    pattern: Pattern,
-    /// Whether nothing is folded, outside or out of order.
+    shaped: Shaped,
+    /// Whether the descent came anywhere: nothing is folded, outside or out of order.
     is_clean: bool,
     /// Whether it keeps all limits.
     is_good: bool,
@@ -147,7 +154,7 @@ impl<'a> Optimiser<'a> {
     ///
     /// # Errors
     /// [`Rejection::TooManyFaces`]. Limits that are not kept, folds and vertices outside are no errors here.
-    pub fn run(&self, placed: Sheet) -> Result<Pattern, Rejection> {
+    pub fn run(&self, placed: Sheet) -> Result<Shaped, Rejection> {
         let shaped = self.shape_coarsely(placed);
         let rows = self.pattern_rows(&shaped)?;
         let mut tried = self.try_rows(&shaped, &rows);
@@ -158,36 +165,35 @@ impl<'a> Optimiser<'a> {
             }
         }
         if tried.is_good {
-            return Ok(tried.pattern);
+            return Ok(tried.shaped);
         }
         let from = if tried.is_clean { &tried.sheet } else { &shaped };
         let rows = self.rows(from, Rungs::middle, None);
         if self.check_count(&rows).is_ok() {
             let other = self.try_rows(from, &rows);
             if other.is_good {
-                return Ok(other.pattern);
+                return Ok(other.shaped);
             }
         }
         Ok(self.repair(tried))
     }
 
-    /// Coarse descents, each on rows that follow the shape found before.
+    /// Coarse descents, each on rows that follow the shape found before; the last that nothing is folded in.
     fn shape_coarsely(&self, placed: Sheet) -> Sheet {
-        let mut sheet = placed;
-        let mut before: Option<Sheet> = None;
-        for round in 0..ROUNDS {
-            let coarseness = (self.task.panels / sheet.quads.len() as f64).sqrt();
-            let (found, is_clean) = self.descend(sheet, &COARSE, coarseness);
+        let (mut shaped, mut is_clean) = self.descend(placed, &COARSE);
+        for _ in 1..ROUNDS {
             if !is_clean {
-                return before.unwrap_or(found);
+                break;
             }
-            if round + 1 == ROUNDS {
-                return found;
+            let rows = self.coarse_rows(&shaped);
+            let next = resample::resample(self.task.coarse, self.ground, &shaped, &rows);
+            let (found, found_clean) = self.descend(next, &COARSE);
+            is_clean = found_clean;
+            if is_clean {
+                shaped = found;
             }
-            sheet = resample::resample(self.task.coarse, self.ground, &found, &self.coarse_rows(&found));
-            before = Some(found);
         }
-        sheet
+        shaped
     }
 
     /// Rows of a coarse pattern of about N/4 panels, measured on a sheet of any densities.
@@ -222,98 +228,87 @@ impl<'a> Optimiser<'a> {
 
     /// The sheet with other rows, through Q1 to Q3 or as far as the limits ask.
     fn try_rows(&self, from: &Sheet, rows: &[u32]) -> Tried {
-        let sheet = resample::resample(self.task.coarse, self.ground, from, rows);
-        let sheet = self.untangled(sheet);
-        let (stations, mut is_clean, mut is_good) = {
-            let mut run = Run::new(self.ground, &sheet);
-            let (mut is_clean, mut is_good) = (false, false);
-            let mut state = None;
-            for (stage, hopeless) in FINE.iter().zip(HOPELESS) {
-                let energy = run.stage(stage, self.task.aims, 1.0);
-                is_clean = energy.is_finite();
-                let found = run.net.state(run.x.clone());
-                is_good = is_clean && self.keeps_limits(&self.pattern(&sheet, &found));
-                state = Some(found);
-                if is_good || !is_clean || energy > hopeless {
-                    break;
-                }
+        let mut sheet = self.untangled(resample::resample(self.task.coarse, self.ground, from, rows));
+        let mut run = Run::new(self.ground, &sheet);
+        let mut last = self.after_stage(&mut run, &FINE[0]);
+        for (stage, hopeless) in FINE[1..].iter().zip(HOPELESS) {
+            if last.is_good || last.energy > hopeless {
+                break;
             }
-            (state, is_clean, is_good)
-        };
-        let mut sheet = sheet;
-        if let Some(stations) = stations {
-            sheet.set(stations);
-        } else {
-            (is_clean, is_good) = (false, false);
+            last = self.after_stage(&mut run, stage);
         }
-        let pattern = self.pattern(&sheet, &(sheet.points.clone(), sheet.stations()));
-        Tried { sheet, pattern, is_clean, is_good }
+        let Descended { energy, state, shaped, is_good } = last;
+        sheet.set(state);
+        Tried { sheet, shaped, is_clean: energy.is_finite(), is_good }
+    }
+
+    fn after_stage(&self, run: &mut Run<'_>, stage: &Stage) -> Descended {
+        let energy = run.stage(stage, self.task.aims, 1.0);
+        let state = run.net.state(run.x.clone());
+        let pattern = run.net.sheet.pattern(self.task, self.ground, &state);
+        let shaped = Shaped::of(pattern, self.task.domain, self.task.surface);
+        let is_good = energy.is_finite() && self.keeps_limits(&shaped);
+        Descended { energy, state, shaped, is_good }
     }
 
     /// At most three times, strips with a rung that is too long for their rows get one more; the last pattern that keeps the limits, or
     /// the one that came.
-    fn repair(&self, tried: Tried) -> Pattern {
-        let pattern = tried.pattern.clone();
-        let mut last = tried;
+    fn repair(&self, tried: Tried) -> Shaped {
+        let Tried { mut sheet, shaped, mut is_clean, .. } = tried;
         for _ in 0..REPAIRS {
             let longest = LONG_RESERVE * self.task.aims.max_edge / self.task.aims.target_length;
-            let parts = last.sheet.dense_parts(self.task.coarse);
-            let rungs = rows::rungs(self.task.coarse, &last.sheet);
+            let parts = sheet.dense_parts(self.task.coarse);
+            let rungs = rows::rungs(self.task.coarse, &sheet);
             let more = |s: usize| {
                 let is_short_of_rows = rungs[s].most / f64::from(parts[s]) > longest;
                 if is_short_of_rows { (parts[s] + 1).min(self.caps[s]) } else { 1 }
             };
             let at_least: Vec<u32> = (0..parts.len()).map(more).collect();
-            if !last.is_clean || at_least.iter().all(|&n| n == 1) {
+            if !is_clean || at_least.iter().all(|&n| n == 1) {
                 break;
             }
-            let rows = self.rows(&last.sheet, Rungs::mean, Some(&at_least));
+            let rows = self.rows(&sheet, Rungs::mean, Some(&at_least));
             if self.check_count(&rows).is_err() {
                 break;
             }
-            last = self.try_rows(&last.sheet, &rows);
-            if last.is_good {
-                return last.pattern;
+            let next = self.try_rows(&sheet, &rows);
+            if next.is_good {
+                return next.shaped;
             }
+            (sheet, is_clean) = (next.sheet, next.is_clean);
         }
-        pattern
+        shaped
     }
 
     /// Untangled in plan where needed, then one descent; whether nothing is folded.
-    fn descend(&self, sheet: Sheet, stage: &Stage, coarseness: f64) -> (Sheet, bool) {
+    fn descend(&self, sheet: Sheet, stage: &Stage) -> (Sheet, bool) {
         let mut sheet = self.untangled(sheet);
-        let (state, is_clean) = {
-            let mut run = Run::new(self.ground, &sheet);
-            let energy = run.stage(stage, self.task.aims, coarseness);
-            (run.net.state(run.x), energy.is_finite())
-        };
+        let mut run = Run::new(self.ground, &sheet);
+        let energy = run.stage(stage, self.task.aims, self.coarseness(&sheet));
+        let state = run.net.state(run.x);
         sheet.set(state);
-        (sheet, is_clean)
+        (sheet, energy.is_finite())
     }
 
     fn untangled(&self, mut sheet: Sheet) -> Sheet {
-        let rest = REST * (self.task.panels / sheet.quads.len() as f64).sqrt();
-        let state = {
-            let net = Net::new(self.ground, &sheet, 2, false);
-            let start = net.start();
-            let found = untangle(&net, rest);
-            (found.x != start).then(|| net.state(found.x))
-        };
-        if let Some(state) = state {
+        let net = Net::new(self.ground, &sheet, 2, false);
+        if let Some(x) = untangle(&net, REST * self.coarseness(&sheet)) {
+            let state = net.state(x);
             sheet.set(state);
         }
         sheet
     }
 
-    fn keeps_limits(&self, pattern: &Pattern) -> bool {
-        check::check(pattern, self.task.domain, self.task.surface).is_ok()
-            && limits::excesses(&Extremes::of(pattern, self.task.domain), self.task.limits)
-                .iter()
-                .all(|limit| limit.excess <= 0.0)
+    /// Mean edge length of a sheet in target lengths, √(N/Nc).
+    fn coarseness(&self, sheet: &Sheet) -> f64 {
+        (self.task.panels / sheet.quads.len() as f64).sqrt()
     }
 
-    fn pattern(&self, sheet: &Sheet, (points, along): &(Vec<Vec3>, Vec<Vec<f64>>)) -> Pattern {
-        sheet.pattern(self.task, self.ground, points, along)
+    fn keeps_limits(&self, shaped: &Shaped) -> bool {
+        shaped.refused.is_none()
+            && limits::excesses(&Extremes::of(&shaped.pattern, self.task.domain), self.task.limits)
+                .iter()
+                .all(|limit| limit.excess <= 0.0)
     }
 }
 

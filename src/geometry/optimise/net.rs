@@ -2,7 +2,7 @@
 //! for each boundary vertex that takes no corner (PATTERN §3).
 
 use super::ground::{Foot, Ground};
-use super::sheet::{NO_CORNER, Sheet};
+use super::sheet::{NO_CORNER, Sheet, State};
 use crate::geometry::vector::{Vec3, add, dot, scale};
 
 /// Normal of a corner that was not asked for yet.
@@ -80,7 +80,6 @@ pub struct Net<'a> {
 }
 
 /// Where all vertices are for given unknowns.
-#[derive(Clone, Default)]
 pub struct Places {
     /// Positions, local units.
     pub points: Vec<Vec3>,
@@ -98,10 +97,11 @@ impl<'a> Net<'a> {
         let mut freedom = vec![Freedom::Inner(0); sheet.points.len()];
         let mut sliders = Vec::new();
         for (label, held) in sheet.loops.iter().enumerate() {
-            for (position, &v) in held.vertices.iter().enumerate() {
+            let ranges = sheet.ranges(label);
+            for ((&v, &corner), range) in held.vertices.iter().zip(&held.corner).zip(ranges) {
                 freedom[v as usize] = Freedom::Fixed;
-                if !is_held && held.corner[position] == NO_CORNER {
-                    sliders.push(Slider::new(ground, v, label, sheet.range(ground, label, position)));
+                if !is_held && corner == NO_CORNER {
+                    sliders.push(Slider::new(ground, v, label, range));
                 }
             }
         }
@@ -321,7 +321,7 @@ impl<'a> Net<'a> {
     }
 
     /// The sheet's positions and arc lengths for given unknowns.
-    pub fn state(&self, mut x: Vec<f64>) -> (Vec<Vec3>, Vec<Vec<f64>>) {
+    pub fn state(&self, mut x: Vec<f64>) -> State {
         let mut places = self.places();
         self.place(&mut x, &mut places);
         let along =

@@ -146,7 +146,7 @@ impl Held {
 
 /// The sides of a loop with what they need; those that a coarse edge joins over a corner are one.
 fn side_rows(
-    rail: &Rail,
+    rail: &Rail<'_>,
     held: &Held,
     edges: &[BoundaryEdge],
     limits: &Limits,
@@ -154,10 +154,10 @@ fn side_rows(
 ) -> Vec<SideRows> {
     let n = held.vertices.len();
     let corners: Vec<usize> = (0..n).filter(|&i| held.is_sharp && held.corner[i] != NO_CORNER).collect();
-    let Some(&first) = corners.first() else {
+    if corners.is_empty() {
         let need = need(rail, [0.0, rail.length], limits, coarseness).ceil() as u32;
         return vec![SideRows { need, strips: edges.iter().map(|edge| edge.strip).collect() }];
-    };
+    }
     // Side k runs from corner k to the next; a group of sides is named by its first.
     let count = corners.len();
     let side_at = |position: usize| {
@@ -178,7 +178,6 @@ fn side_rows(
         }
     }
     let station = |k: usize| held.along[corners[k % count]] + if k >= count { rail.length } else { 0.0 };
-    debug_assert!(first < n);
     (0..count)
         .filter(|&k| group[k] == k)
         .map(|k| {
@@ -193,7 +192,7 @@ fn side_rows(
 }
 
 /// ∫ max(1/(0.9 longest edge), √(κ/(8 · 0.9 gap))) ds over a stretch of a rail, less a rounding error.
-fn need(rail: &Rail, [from, to]: [f64; 2], limits: &Limits, coarseness: f64) -> f64 {
+fn need(rail: &Rail<'_>, [from, to]: [f64; 2], limits: &Limits, coarseness: f64) -> f64 {
     let unit = limits.target_length;
     let by_length = 1.0 / (RESERVE * coarseness * limits.max_edge / unit);
     let by_gap = 1.0 / (8.0 * RESERVE * coarseness * limits.max_gap / unit);

@@ -3,7 +3,7 @@
 use super::Task;
 use super::ground::Ground;
 use super::net::Link;
-use crate::geometry::boundary::BoundaryLoop;
+use crate::geometry::boundary::{self, BoundaryLoop};
 use crate::geometry::coarse::Coarse;
 use crate::geometry::dense::{Dense, Edges};
 use crate::geometry::pattern::{Panel, Pattern};
@@ -11,6 +11,9 @@ use crate::geometry::vector::Vec3;
 
 /// A boundary vertex that takes no corner.
 pub const NO_CORNER: u32 = u32::MAX;
+
+/// Positions of all vertices, and arc lengths of the boundary vertices by loop, local units.
+pub type State = (Vec<Vec3>, Vec<Vec<f64>>);
 
 /// A dense mesh that has positions.
 pub struct Sheet {
@@ -94,7 +97,7 @@ impl Sheet {
     }
 
     /// Moves the vertices.
-    pub fn set(&mut self, (points, along): (Vec<Vec3>, Vec<Vec<f64>>)) {
+    pub fn set(&mut self, (points, along): State) {
         self.points = points;
         for (held, along) in self.loops.iter_mut().zip(along) {
             held.along = along;
@@ -110,29 +113,23 @@ impl Sheet {
         }
     }
 
-    /// Arc lengths of the corners before and after a boundary vertex; infinite where the loop has none.
-    pub fn range(&self, ground: &Ground<'_>, label: usize, position: usize) -> [f64; 2] {
+    /// For each vertex of a loop, the arc lengths of the corners before (or at) and after it; infinite where the loop has none.
+    pub fn ranges(&self, label: usize) -> Vec<[f64; 2]> {
         let held = &self.loops[label];
-        let length = ground.rails[label].length;
-        let corners = || (0..held.vertices.len()).filter(|&i| held.corner[i] != NO_CORNER);
-        let before = corners().rfind(|&i| i <= position).map(|i| held.along[i]);
-        let after = corners().find(|&i| i > position).map(|i| held.along[i]);
-        let (first, last) = (corners().next(), corners().next_back());
-        let (Some(first), Some(last)) = (first, last) else { return [f64::NEG_INFINITY, f64::INFINITY] };
-        [before.unwrap_or(held.along[last] - length), after.unwrap_or(held.along[first] + length)]
-    }
-
-    /// The corner that each coarse vertex takes; `NO_CORNER` for most.
-    pub fn coarse_corners(&self, coarse_vertices: usize) -> Vec<u32> {
-        let mut corners = vec![NO_CORNER; coarse_vertices];
-        for held in &self.loops {
-            for (&v, &corner) in held.vertices.iter().zip(&held.corner) {
-                if let Some(slot) = corners.get_mut(v as usize) {
-                    *slot = corner;
-                }
-            }
-        }
-        corners
+        let length = self.loop_lengths[label];
+        let n = held.vertices.len();
+        let corners: Vec<usize> = (0..n).filter(|&i| held.corner[i] != NO_CORNER).collect();
+        let (Some(&first), Some(&last)) = (corners.first(), corners.last()) else {
+            return vec![[f64::NEG_INFINITY, f64::INFINITY]; n];
+        };
+        (0..n)
+            .map(|i| {
+                let after = corners.partition_point(|&corner| corner <= i);
+                let before =
+                    after.checked_sub(1).map_or(held.along[last] - length, |k| held.along[corners[k]]);
+                [before, corners.get(after).map_or(held.along[first] + length, |&k| held.along[k])]
+            })
+            .collect()
     }
 
     /// The boundary's edges.
@@ -143,8 +140,7 @@ impl Sheet {
             let n = held.vertices.len();
             let mut side = [f64::NAN; 2];
             let mut is_curved = true;
-            for i in 0..n {
-                let here = self.range(ground, label, i);
+            for (i, here) in self.ranges(label).into_iter().enumerate() {
                 if here != side {
                     side = here;
                     is_curved = !side[0].is_finite() || !rail.is_straight(side[0], side[1]);
@@ -159,15 +155,6 @@ impl Sheet {
             }
         }
         links
-    }
-
-    /// For each vertex, whether it is on the boundary.
-    pub fn on_boundary(&self) -> Vec<bool> {
-        let mut on_boundary = vec![false; self.points.len()];
-        for &v in self.loops.iter().flat_map(|held| &held.vertices) {
-            on_boundary[v as usize] = true;
-        }
-        on_boundary
     }
 
     /// Vertices of which no corner counts.
@@ -191,27 +178,14 @@ impl Sheet {
 
     /// Inner vertices of panels that touch the boundary.
     pub fn near_boundary(&self) -> Vec<u32> {
-        let on_boundary = self.on_boundary();
-        let mut near = vec![false; self.points.len()];
-        for panel in self.dense.panels.iter().map(Panel::corners) {
-            if panel.iter().any(|&v| on_boundary[v as usize]) {
-                for &v in panel {
-                    near[v as usize] = !on_boundary[v as usize];
-                }
-            }
-        }
-        (0..near.len() as u32).filter(|&v| near[v as usize]).collect()
+        let held = self.loops.iter().flat_map(|held| &held.vertices);
+        boundary::beside(&self.dense.panels, &boundary::marked(self.points.len(), held))
     }
 
     /// Loops without a kink that takes part.
     pub fn smooth_loops(&self) -> Vec<usize> {
         let is_smooth = |held: &Held| !held.is_sharp || held.corner.iter().all(|&c| c == NO_CORNER);
         (0..self.loops.len()).filter(|&label| is_smooth(&self.loops[label])).collect()
-    }
-
-    /// Arc lengths of all boundary vertices by loop.
-    pub fn stations(&self) -> Vec<Vec<f64>> {
-        self.loops.iter().map(|held| held.along.clone()).collect()
     }
 
     /// Rows of each strip.
@@ -224,13 +198,7 @@ impl Sheet {
     }
 
     /// The pattern in metres, corners exactly on those of the domain. Its loops begin at their first corner.
-    pub fn pattern(
-        &self,
-        task: &Task<'_>,
-        ground: &Ground<'_>,
-        points: &[Vec3],
-        along: &[Vec<f64>],
-    ) -> Pattern {
+    pub fn pattern(&self, task: &Task<'_>, ground: &Ground<'_>, (points, along): &State) -> Pattern {
         let mut positions: Vec<Vec3> = points.iter().map(|&p| ground.global(p)).collect();
         let mut corners = Vec::new();
         let mut loop_corners = Vec::new();

@@ -84,7 +84,7 @@ fn unfold(
     let points = shape.plan.iter().map(|&[x, y]| ground.local([x, y, 0.0])).collect();
     let sheet = Sheet::placed(&ground, dense.clone(), points, loops, &shape.along);
     let net = Net::new(&ground, &sheet, 2, true);
-    let mut found = untangle(&net, 1.0).x;
+    let mut found = untangle(&net, 1.0).unwrap_or_else(|| net.start());
     if evened {
         found = even_out(&net, 1.0, found);
     }
