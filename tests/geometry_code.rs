@@ -4,7 +4,7 @@ mod geometry_support;
 
 use geometry_support::great_court;
 use quadrille::geometry::params::{Pinched, RelaxParams};
-use quadrille::geometry::{PatternParams, metrics, shape, topological_rejection};
+use quadrille::geometry::{PatternParams, Shaped, metrics, shape, topological_rejection};
 use quadrille::grammar::{Rules, Tokens, decode};
 use quadrille::mesh::isomorphism::canonical_mesh;
 use quadrille::mesh::{BaseMesh, CanonicalMesh, Code, InitialMesh, QuadMesh};
@@ -34,7 +34,9 @@ fn fingerprint(court: &Study, mesh: &CanonicalMesh) -> String {
         return rejection.to_string();
     }
     match shape(mesh, domain, surface.as_ref(), &params()) {
-        Ok(pattern) => format!("{:?} {:?}", metrics::measure(&pattern, mesh, domain), pattern.positions),
+        Ok(Shaped { pattern, .. }) => {
+            format!("{:?} {:?}", metrics::measure(&pattern, mesh, domain), pattern.positions)
+        }
         Err(rejection) => rejection.to_string(),
     }
 }
