@@ -10,6 +10,10 @@ use crate::domain::Domain;
 /// the config does not say (PATTERN §5).
 const QUARTER: f64 = 0.25;
 
+/// Longest edge that a pattern is drawn to keep where its limit is looser, in target lengths: with one of 5 t the tips of an ellipse were
+/// left to edges of 4 t. The gap is drawn to its default.
+const LONGEST_AIM: f64 = 2.4;
+
 /// The limits of a config in numbers, on one domain: all that depends on the target length is filled in.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Limits {
@@ -45,13 +49,7 @@ impl Limits {
             max_gap: params.max_boundary_gap_m.unwrap_or(QUARTER * target_length),
         }
     }
-}
 
-/// Longest edge and largest gap that a pattern is drawn to keep where its limits are looser, in target lengths: with a longest edge of
-/// 5 t the tips of an ellipse were left to edges of 4 t.
-const LONGEST_AIM: f64 = 2.4;
-
-impl Limits {
     /// What the optimiser is to aim at: these limits, but for a longest edge and a gap that are much looser than a good pattern needs.
     pub fn aims(&self) -> Self {
         let t = self.target_length;
