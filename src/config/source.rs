@@ -25,8 +25,7 @@ impl Source {
             true => std::io::read_to_string(std::io::stdin()),
             false => std::fs::read_to_string(file),
         };
-        let text = read
-            .map_err(|source| ConfigError::Read { file: file.to_path_buf(), source })?;
+        let text = read.map_err(|source| ConfigError::Read { file: file.to_path_buf(), source })?;
         Self::parse(file, text, sets)
     }
 

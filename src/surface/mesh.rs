@@ -26,7 +26,8 @@ impl MeshSurface {
     pub fn read(input: Input<'_>, unit: LengthUnit) -> Result<Self, SurfaceError> {
         let obj = obj::read(input, unit)?;
         check_faces(&obj, input.file)?;
-        Self::new(&obj.vertices, &obj.faces).ok_or_else(|| SurfaceError::NoFaces { file: input.file.to_owned() })
+        Self::new(&obj.vertices, &obj.faces)
+            .ok_or_else(|| SurfaceError::NoFaces { file: input.file.to_owned() })
     }
 
     /// A mesh from its triangles and quads; faces without area do not count. `None` if none is left.
