@@ -99,18 +99,21 @@ impl Store {
         let recorded = found.checkpoints.first().map(|checkpoint| checkpoint.config.clone());
         // Compared before the journal is opened for writing: a refused resume leaves everything as it was.
         let left = journal::read(&folder.join(JOURNAL))?;
-        if let Some(recorded) = recorded.as_ref().or(left.config.as_ref()) {
-            let keys = differing_keys(recorded, &config);
-            if !keys.is_empty() {
-                return Err(StoreError::OtherConfig { folder: folder.to_path_buf(), keys });
-            }
-        }
+        refuse_other(folder, recorded.as_ref().or(left.config.as_ref()), &config)?;
         let journal = Journal::resume(&folder.join(JOURNAL), &config, &left)?;
         if left.damaged > 0 {
             found.notices.push(format!("{JOURNAL}: damaged lines left out: {}", left.damaged));
         }
         found.entries = left.entries;
         Ok(Self { folder: folder.to_path_buf(), config, journal, found, worked: false })
+    }
+
+    /// Whether a run in `folder` can be gone on with; nothing is opened for writing.
+    ///
+    /// # Errors
+    /// As [`Store::resume`].
+    pub fn check(folder: &Path, config: &Value) -> Result<(), StoreError> {
+        refuse_other(folder, Self::recorded_config(folder)?.as_ref(), config)
     }
 
     /// The config recorded in `folder`, if a run was begun there: the seed that was drawn is in it.
@@ -186,6 +189,15 @@ impl Store {
             fs::rename(&newest, &previous).map_err(|error| StoreError::io(&previous, error))?;
         }
         atomic::write(&newest, &bytes).map_err(|error| StoreError::io(&newest, error))
+    }
+}
+
+/// Refuses a config that differs from the recorded one in what may not differ.
+fn refuse_other(folder: &Path, recorded: Option<&Value>, config: &Value) -> Result<(), StoreError> {
+    let keys = recorded.map(|recorded| differing_keys(recorded, config)).unwrap_or_default();
+    match keys.is_empty() {
+        true => Ok(()),
+        false => Err(StoreError::OtherConfig { folder: folder.to_path_buf(), keys }),
     }
 }
 
