@@ -256,7 +256,7 @@ fn signals_that_come_together_are_one() {
 fn a_second_signal_later_aborts() {
     let folder = TempDir::new().unwrap();
     let mut child =
-        begin(folder.path(), &["--set", "pattern.panels=20000", "--set", "pattern.max_faces=40000"]);
+        begin(folder.path(), &["--set", "pattern.panels=60000", "--set", "pattern.max_faces=1000000"]);
     while !fs::exists(folder.path().join("evaluations.jsonl")).unwrap() {
         sleep(Duration::from_millis(2));
     }
