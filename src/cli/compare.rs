@@ -37,7 +37,7 @@ pub struct Entry {
 pub type Save<'a> = dyn Fn(DesignFiles) -> Result<(), CliError> + Sync + 'a;
 
 impl Entry {
-    /// First 12 digits of its code.
+    /// Its id ([`id`]).
     pub fn id(&self) -> String {
         id(self.code)
     }
@@ -124,7 +124,7 @@ impl Comparison {
                 (0..METRICS.len())
                     .map(|m| Cell::from(self.value(entry, m).map(|value| number(value, self.largest(m))))),
             );
-            cells.push(evaluation.reason.clone().into());
+            cells.push(Cell::words(&evaluation.reason));
             table.rows.push(cells);
         }
         table

@@ -79,7 +79,7 @@ fn front<'a>(loaded: &'a Loaded, told: &[Contradiction]) -> Vec<&'a EvaluatedRow
 /// Everything that is not what the file says.
 fn differences(study: &Study, row: &EvaluatedRow) -> Vec<String> {
     if !same_code(study, &row.tokens, row.code) {
-        return vec![format!("string {} no longer has code {}", row.tokens, row.code)];
+        return vec![format!("string {} no longer gives this design", row.tokens)];
     }
     let now = evaluate(study, &row.tokens).sanitised(study.objectives.len());
     let mut differences = words(row, &now, &study.identify(&row.tokens).expressed.to_string());

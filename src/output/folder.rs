@@ -31,7 +31,9 @@ pub const DESIGN_EXPLORER: &str = "design_explorer";
 /// Folder of the pictures that `explain` draws.
 pub const EXPLAINED: &str = "explained";
 /// Every evaluation of a run, as they come.
-pub const JOURNAL: &str = "evaluations.jsonl";
+pub const JOURNAL: &str = "evaluations.journal";
+/// Its name in runs of quadrille 0.1, which go on with it.
+pub const JOURNAL_BEFORE: &str = "evaluations.jsonl";
 const LOCK: &str = ".lock";
 
 /// Why a results folder cannot be used.
@@ -147,6 +149,7 @@ impl Folder {
             CHECKPOINT,
             CHECKPOINT_PREVIOUS,
             JOURNAL,
+            JOURNAL_BEFORE,
             REPORT,
         ];
         let excel = [PARETO, HISTORY, GENERATIONS, OPERATORS].map(excel_name);
@@ -222,7 +225,13 @@ impl Folder {
 }
 
 fn has_checkpoint(folder: &Path) -> bool {
-    [CHECKPOINT, CHECKPOINT_PREVIOUS, JOURNAL].iter().any(|name| folder.join(name).exists())
+    [CHECKPOINT, CHECKPOINT_PREVIOUS].iter().any(|name| folder.join(name).exists()) || journal(folder).exists()
+}
+
+/// The journal of a folder: a run that was begun under its old name keeps it.
+pub fn journal(folder: &Path) -> PathBuf {
+    let [path, before] = [JOURNAL, JOURNAL_BEFORE].map(|name| folder.join(name));
+    if before.exists() && !path.exists() { before } else { path }
 }
 
 /// The name of a table's copy for a spreadsheet with decimal commas: `pareto.csv` → `pareto.excel-eu.csv`.

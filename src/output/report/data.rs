@@ -72,7 +72,7 @@ pub struct Metric {
 /// One design: its string, its numbers, its mesh.
 #[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize)]
 pub struct Design {
-    /// First 12 hex digits of its code.
+    /// Its id, as its files are named.
     pub id: String,
     /// The string as bred.
     pub string: String,

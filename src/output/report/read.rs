@@ -4,7 +4,7 @@ use super::choose::worth_a_mesh;
 use super::data::{Design, Generation, Metric, Obstacle, ReportData, Run, Sample, Spread};
 use super::{measure, shape};
 use crate::objectives::{self, METRICS};
-use crate::output::designs;
+use crate::output::designs::{Naming, id};
 use crate::output::folder::DESIGNS;
 use crate::output::load::{LoadError, Loaded, load};
 use crate::output::manifest::Manifest;
@@ -25,8 +25,8 @@ const BYTES_PER_PANEL: usize = 28;
 /// # Errors
 /// [`LoadError`]: a file that is missing or cannot be read, by name and line.
 pub fn read(folder: &Path) -> Result<ReportData, LoadError> {
-    let Loaded { manifest, config, evaluated, front, generations, .. } = load(folder)?;
-    let shown = Shown::of(&config.objectives.minimise, &evaluated);
+    let Loaded { manifest, config, evaluated, front, generations, naming, .. } = load(folder)?;
+    let shown = Shown::of(&config.objectives.minimise, &evaluated, naming);
     let shapes = folder.join(DESIGNS);
     let mut rows: Vec<Design> =
         front.iter().map(|&row| shown.design(&evaluated[row], &shapes)).collect::<Result<_, _>>()?;
@@ -99,22 +99,23 @@ fn metric(metric: &objectives::Metric) -> Metric {
 struct Shown {
     places: Vec<usize>,
     objectives: usize,
+    naming: Naming,
 }
 
 impl Shown {
-    fn of(minimised: &[String], evaluated: &[EvaluatedRow]) -> Self {
+    fn of(minimised: &[String], evaluated: &[EvaluatedRow], naming: Naming) -> Self {
         let place = |name: &String| METRICS.iter().position(|metric| metric.name == name);
         let mut places: Vec<usize> = minimised.iter().filter_map(place).collect();
         let objectives = places.len();
         let exists = |place: &usize| evaluated.iter().any(|row| row.metrics.get(*place).is_some());
         let others = (0..METRICS.len()).filter(|place| !places.contains(place)).filter(exists);
         places.extend(others.collect::<Vec<_>>());
-        Self { places, objectives }
+        Self { places, objectives, naming }
     }
 
     fn design(&self, row: &EvaluatedRow, shapes: &Path) -> Result<Design, LoadError> {
         let mut design = Design {
-            id: designs::id(row.code),
+            id: self.naming.apply(id(row.code)),
             string: row.tokens.to_string(),
             expressed: row.expressed.to_string(),
             generation: row.generation,
