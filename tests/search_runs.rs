@@ -145,6 +145,26 @@ fn a_search_that_stalls_or_runs_out_of_designs_ends() {
 }
 
 #[test]
+fn a_search_that_has_found_nothing_yet_does_not_stall() {
+    let generations = |reference: f64| {
+        let mut settings = settings(20);
+        settings.search.stall_generations = Some(2);
+        (settings.ideal, settings.reference) = (vec![0.0; 3], vec![reference; 3]);
+        let outcome = run_silently(&Counting::new(), &settings, 2);
+        (outcome.ended, outcome.generations)
+    };
+    // Out of reach: the hypervolume is 0 throughout.
+    let (ended, rows) = generations(0.01);
+    assert!(rows.iter().all(|row| row.hypervolume == Some(0.0)));
+    assert_eq!((ended, rows.len()), (Ended::Generations, 21));
+    // Within reach, but not at once.
+    let (ended, rows) = generations(6.0);
+    assert_eq!((rows[0].hypervolume, ended), (Some(0.0), Ended::Stall));
+    let [.., before, last, end] = rows.as_slice() else { panic!("{rows:?}") };
+    assert!(before.hypervolume > Some(0.0) && end.hypervolume == before.hypervolume, "{last:?}");
+}
+
+#[test]
 fn the_time_limit_ends_a_run_in_good_order() {
     let mut settings = settings(u32::MAX - 1);
     settings.search.minutes = Some(0.002);

@@ -7,7 +7,7 @@ use quadrille::objectives::METRICS;
 use quadrille::output::consistency::{Contradiction, contradictions};
 use quadrille::output::designs::id;
 use quadrille::output::load::Loaded;
-use quadrille::search::{EvaluatedRow, Evaluation, Problem, evaluate};
+use quadrille::search::{EvaluatedRow, Evaluation, Problem, evaluate, thread_pool};
 use quadrille::study::Study;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -45,7 +45,8 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
         }
         None => front(&loaded, &told),
     };
-    let found: Vec<Vec<String>> = rows.par_iter().map(|row| differences(&study, row)).collect();
+    let all = || rows.par_iter().map(|row| differences(&study, row)).collect();
+    let found: Vec<Vec<String>> = thread_pool(0)?.install(all);
     for contradiction in &told {
         outln!("{}", contradiction.message);
     }

@@ -1,7 +1,7 @@
 //! The results folder: where each file is, who may write, and whether a run is finished.
 
 use super::atomic;
-use super::manifest::{Manifest, Status};
+use super::manifest::{Manifest, ManifestError, Status};
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -56,6 +56,14 @@ pub enum FolderError {
         /// The file or folder in it.
         name: &'static str,
     },
+    /// A later program wrote it: what is whose cannot be told.
+    #[error("{}: {reason}; or give another --out", path.display())]
+    Newer {
+        /// The manifest.
+        path: PathBuf,
+        /// Whose it is.
+        reason: ManifestError,
+    },
     /// There is nothing to go on with.
     #[error("{} holds no checkpoint to resume", .0.display())]
     NoCheckpoint(PathBuf),
@@ -102,6 +110,7 @@ impl Folder {
         if opening == Opening::Resume && !lock_path.exists() && !has_checkpoint(path) {
             return Err(FolderError::NoCheckpoint(path.to_path_buf()));
         }
+        refuse_newer(path)?;
         fs::create_dir_all(path).map_err(io(path))?;
         let lock = File::create(&lock_path).map_err(io(&lock_path))?;
         match lock.try_lock() {
@@ -221,6 +230,15 @@ impl Folder {
         let path = self.join(name);
         let made = path.parent().map_or(Ok(()), fs::create_dir_all);
         made.and_then(|()| atomic::write_with(&path, fill)).map_err(|source| FolderError::Io { path, source })
+    }
+}
+
+/// Refuses the folder of a later program, also to be overwritten.
+fn refuse_newer(folder: &Path) -> Result<(), FolderError> {
+    let path = folder.join(MANIFEST);
+    match fs::read(&path).map(|bytes| Manifest::parse(&bytes)) {
+        Ok(Err(reason @ ManifestError::Newer { .. })) => Err(FolderError::Newer { path, reason }),
+        _ => Ok(()),
     }
 }
 

@@ -69,8 +69,7 @@ pub fn load(folder: &Path) -> Result<Loaded, LoadError> {
         return Err(LoadError::NotARun { folder: folder.to_path_buf() });
     }
     let wrong = |message: String| LoadError::Format { path: path.clone(), message };
-    let manifest: Manifest =
-        serde_json::from_slice(&read(&path)?).map_err(|error| wrong(error.to_string()))?;
+    let manifest = Manifest::parse(&read(&path)?).map_err(|error| wrong(error.to_string()))?;
     let config: Config =
         toml::from_str(&manifest.config).map_err(|error| wrong(format!("config: {}", error.message())))?;
     let columns = Columns::of(&config.objectives.minimise);

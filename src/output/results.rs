@@ -15,7 +15,7 @@ use super::table::{Dialect, Table};
 use crate::config::{self, Config};
 use crate::mesh::CanonicalMesh;
 use crate::objectives::METRICS;
-use crate::search::{Ended, EvaluatedRow, Evaluation, Outcome};
+use crate::search::{Ended, EvaluatedRow, Evaluation, Outcome, ThreadsError, thread_pool};
 use crate::structure::gridshell::{Detailed, Proof};
 use crate::study::{Design, Failure, Reached, Study};
 use rayon::prelude::*;
@@ -53,7 +53,7 @@ pub enum ResultsError {
     },
     /// The system does not give the threads.
     #[error(transparent)]
-    Threads(#[from] rayon::ThreadPoolBuildError),
+    Threads(#[from] ThreadsError),
     /// A design of the front can no longer be made: the program contradicts itself.
     #[error("design {id}: {reason}")]
     Design {
@@ -149,7 +149,7 @@ impl Run<'_> {
     /// nearest; for comparison also the initial mesh, where it has a pattern.
     fn write_designs(&self, folder: &Folder, threads: usize) -> Result<(), ResultsError> {
         let front = self.front();
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+        let pool = thread_pool(threads)?;
         let baseline = self.outcome.evaluated.iter().find(|row| row.tokens.is_empty());
         let files: Vec<DesignFiles> =
             pool.install(|| front.par_iter().map(|row| self.design_files(row)).collect::<Result<_, _>>())?;

@@ -28,7 +28,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use self::checkpoint::Checkpoint;
+use self::checkpoint::{Checkpoint, Unusable};
 use self::entry::Entry;
 use self::journal::Journal;
 use super::breeding::Child;
@@ -88,8 +88,8 @@ impl Store {
     /// Goes on in `folder`; starts anew where there is nothing to go on from.
     ///
     /// # Errors
-    /// If files cannot be read or written, or `config` differs from the recorded one in anything but threads and the
-    /// stopping limits.
+    /// If files cannot be read or written, a later program wrote them, or `config` differs from the recorded one in
+    /// anything but threads and the stopping limits.
     pub fn resume(folder: &Path, config: Value) -> Result<Self, StoreError> {
         let mut found = Found::default();
         let mut recorded = None;
@@ -101,12 +101,18 @@ impl Store {
                     found.checkpoints.push(checkpoint);
                 }
                 Ok(None) => {}
-                Err(damage) => found.notices.push(format!("{name} is not used: {damage}")),
+                Err(Unusable::Damaged(how)) => found.notices.push(format!("{name} is not used: {how}")),
+                Err(Unusable::Newer(found)) => {
+                    return Err(StoreError::Newer { path: folder.join(name), found });
+                }
             }
         }
         // Compared before the journal is opened for writing: a refused resume leaves everything as it was.
         let path = folder::journal(folder);
         let left = journal::read(&path)?;
+        if let Some(found) = left.newer {
+            return Err(StoreError::Newer { path, found });
+        }
         if let Some(recorded) = recorded.as_ref().or(left.config.as_ref()) {
             let keys = differing_keys(recorded, &config);
             if !keys.is_empty() {
