@@ -7,6 +7,7 @@ use super::quote::quote;
 use super::{CliError, Console, exit};
 use quadrille::config::{Config, to_toml};
 use quadrille::output::folder::{Folder, FolderError, Opening, REPORT};
+use quadrille::output::number::significant;
 use quadrille::output::obstacles::Obstacles;
 use quadrille::output::report;
 use quadrille::output::results::{self, Run, Sitting};
@@ -228,7 +229,7 @@ fn summarise(study: &Study, outcome: &Outcome, folder: &Folder, clock: Instant, 
         let values = outcome.front.iter().map(|&row| outcome.evaluated[row].objectives[i]);
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
         if low.is_finite() {
-            outln!("  {:<24} {low:>12.6} to {high:>12.6}", objective.column);
+            outln!("  {:<24} {:>12} to {:>12}", objective.column, significant(low), significant(high));
         }
     }
     if outcome.front.is_empty() {

@@ -10,7 +10,7 @@ use super::manifest::{self, Counts, Host, Manifest, Status, timestamp};
 use super::obj::obj;
 use super::obstacles::nearest_misses;
 use super::polygons::Polygons;
-use super::svg::{Shade, svg};
+use super::svg::{Plan, Shade, svg};
 use super::table::{Dialect, Table};
 use crate::config::{self, Config};
 use crate::mesh::CanonicalMesh;
@@ -297,8 +297,21 @@ impl Developed {
     pub fn plan(&self, id: &str) -> Vec<u8> {
         let curvature = PanelShapes::of(&self.design.pattern).curvature;
         // A fixed scale, so that designs can be compared by eye.
-        let shade = Shade { label: "panel curvature", values: &curvature, darkest: 0.05 };
-        svg(&self.design.pattern, &format!("design {id}"), Some(&shade))
+        let shade = Some(Shade { label: "panel curvature", values: &curvature, darkest: 0.05 });
+        svg(&self.design.pattern, &self.title(id), &Plan { shade, supports: self.supports() })
+    }
+
+    /// What pictures of it are called.
+    pub(super) fn title(&self, id: &str) -> String {
+        let pattern = &self.design.pattern;
+        format!("design {id}: {} panels, {} members", pattern.panels.len(), pattern.edges.len())
+    }
+
+    /// Its supported nodes, and whether they are held horizontally; none where nothing was analysed.
+    pub(super) fn supports(&self) -> Vec<([f64; 3], bool)> {
+        let Some(frame) = self.results.as_ref().map(|results| &results.model.frame) else { return Vec::new() };
+        let nodes = frame.supported().map(|node| node.0 as usize);
+        nodes.map(|n| (frame.nodes()[n], frame.fixed()[n][0] || frame.fixed()[n][1])).collect()
     }
 
     /// The files of `designs/`.

@@ -144,7 +144,7 @@ fn design(i: usize, panels: usize, rng: &mut Rng) -> Design {
     let inner = match kind {
         0 => BTreeMap::new(),
         1 => BTreeMap::from([(3, 4)]),
-        _ => BTreeMap::from([(12 + (i as u32 % 4), 1)]),
+        _ => BTreeMap::from([(12 + (i % 4), 1)]),
     };
     let string = ["ATTPA", "A*TPTPPA", "AoTTTAoPD", "ATPTTAPPDTATPTA"][i % 4].repeat(1 + i % 3);
     Design {
@@ -158,8 +158,9 @@ fn design(i: usize, panels: usize, rng: &mut Rng) -> Design {
         singularities: Some(Singularities {
             inner,
             boundary: BTreeMap::from([(2, 4)]),
-            poles: u32::from(kind == 2),
+            poles: usize::from(kind == 2),
         }),
+        family: None,
         mesh: Some(mesh),
     }
 }

@@ -6,15 +6,16 @@
 mod choose;
 mod data;
 mod encode;
+mod families;
 mod measure;
 mod page;
 mod read;
 mod shape;
 
+pub use crate::output::coarse::Singularities;
 pub use choose::worth_a_mesh;
 pub use data::{
-    Design, Generation, Mark, Mesh, Metric, Obstacle, ReportData, Run, Sample, Singular, Singularities,
-    Spread,
+    Design, Generation, Mark, Mesh, Metric, Obstacle, ReportData, Run, Sample, Singular, Spread,
 };
 pub use read::read;
 
