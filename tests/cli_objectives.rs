@@ -46,7 +46,10 @@ fn the_warning_of_many_objectives_says_what_happens() {
     let told = stderr(&check(five, &[]));
     assert!(told.contains("5 objectives") && told.contains("add to the hypervolume"), "{told}");
     assert!(!told.contains("parents"), "no parent comes from the archive: {told}");
-    let told = stderr(&check(five, &["--set", "search.survival=\"crowding\"", "--set", "search.archive.parents=0.2"]));
+    let told = stderr(&check(
+        five,
+        &["--set", "search.survival=\"crowding\"", "--set", "search.archive.parents=0.2"],
+    ));
     assert!(told.contains("by crowding alone") && told.contains("0.2 of the parents"), "{told}");
 }
 
@@ -74,14 +77,21 @@ fn threads_that_the_system_does_not_give_are_told_and_nothing_is_touched() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
     let program = assert_cmd::cargo::cargo_bin("quadrille");
-    for arguments in ["run configs/ci.toml --threads 1024 --out", "evaluate configs/ci.toml --string A --set run.threads=1024 --out"] {
+    for arguments in [
+        "run configs/ci.toml --threads 1024 --out",
+        "evaluate configs/ci.toml --string A --set run.threads=1024 --out",
+    ] {
         // Room for the program, not for the stacks of so many threads.
-        let script = format!("ulimit -v 700000; exec '{}' {arguments} '{}'", program.display(), out.display());
+        let script =
+            format!("ulimit -v 700000; exec '{}' {arguments} '{}'", program.display(), out.display());
         let mut shell = Command::new("sh");
         let output = shell.current_dir(env!("CARGO_MANIFEST_DIR")).args(["-c", &script]).output().unwrap();
         let told = stderr(&output);
         assert_eq!(output.status.code(), Some(1), "{told}");
-        assert!(told.contains("cannot start 1024 threads: ") && told.contains("--set run.threads=N"), "{told}");
+        assert!(
+            told.contains("cannot start 1024 threads: ") && told.contains("--set run.threads=N"),
+            "{told}"
+        );
         assert!(!out.join("history.csv").exists() && !out.join(".lock").exists());
     }
 }

@@ -107,7 +107,14 @@ fn pictures_come_from_the_designs_files() {
 /// What `decode --format json` counts of a string.
 fn decoded(string: &str) -> serde_json::Value {
     let mut command = Command::cargo_bin("quadrille").expect("the program");
-    command.args(["decode", concat!(env!("CARGO_MANIFEST_DIR"), "/configs/ci.toml"), "--string", string, "--format", "json"]);
+    command.args([
+        "decode",
+        concat!(env!("CARGO_MANIFEST_DIR"), "/configs/ci.toml"),
+        "--string",
+        string,
+        "--format",
+        "json",
+    ]);
     let printed = command.output().expect("it runs").stdout;
     serde_json::from_slice::<serde_json::Value>(&printed).unwrap()["summary"]["singularities"].clone()
 }
@@ -115,7 +122,8 @@ fn decoded(string: &str) -> serde_json::Value {
 #[test]
 fn singularities_are_those_that_decode_counts() {
     let strings = ["ATTPA", "D", "A*TPTTTPPTTDPTA*D", "AoTPTTTPPTTDPTAD"];
-    let rows = strings.map(|string| format!("aaaaaaaaaaa{},{string},,aaaaaaaaaaa{0}0000,0,true,1,1,3", string.len() % 10));
+    let rows = strings
+        .map(|string| format!("aaaaaaaaaaa{},{string},,aaaaaaaaaaa{0}0000,0,true,1,1,3", string.len() % 10));
     let header = PARETO.lines().next().unwrap();
     let data = read(
         folder(|f| {

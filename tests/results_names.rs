@@ -93,7 +93,9 @@ fn no_id_and_no_code_is_a_number_and_no_string_is_missing() {
     assert!(baseline.contains(&("string".into(), "\"\"".into())), "{baseline:?}");
     // A feasible design has no reason, which is a missing value.
     assert!(baseline.contains(&("feasible".into(), "true".into())));
-    assert!(fs::read_to_string(finished().join("history.csv")).unwrap().lines().nth(1).unwrap().ends_with(','));
+    assert!(
+        fs::read_to_string(finished().join("history.csv")).unwrap().lines().nth(1).unwrap().ends_with(',')
+    );
     for name in fs::read_dir(finished().join("designs")).unwrap().map(|entry| entry.unwrap().file_name()) {
         assert!(name.to_str().unwrap().starts_with('q'), "{name:?}");
     }
@@ -109,10 +111,13 @@ fn a_folder_of_before_is_read_and_old_ids_are_understood() {
     assert!(verified.status.success(), "{}", said(&verified));
     let id = raw(&old.join("pareto.csv"))[1][0].1.clone();
     assert_eq!(id.len(), 12);
-    for (folder, id) in [(old.as_path(), &id), (new, &id), (new, &format!("q{id}")), (&old, &format!("q{id}"))] {
+    for (folder, id) in
+        [(old.as_path(), &id), (new, &id), (new, &format!("q{id}")), (&old, &format!("q{id}"))]
+    {
         for id in [id.as_str(), &id[..7]] {
             let picture = temporary.path().join("p.svg");
-            let told = quadrille(&["explain", folder.to_str().unwrap(), id, "--svg", picture.to_str().unwrap()]);
+            let told =
+                quadrille(&["explain", folder.to_str().unwrap(), id, "--svg", picture.to_str().unwrap()]);
             let wanted = format!("design q{}", id.trim_start_matches('q'));
             assert!(said(&told).starts_with(&wanted), "{id}: {}", said(&told));
         }

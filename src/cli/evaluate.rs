@@ -53,7 +53,8 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     let study = args.config.study(&config)?;
     let save = args.out.as_deref().map(Designs::below).transpose()?;
     let save = save.as_ref().map(|designs| |files: DesignFiles| designs.save(&files));
-    let comparison = Comparison::of(&study, named, config.run.threads, save.as_ref().map(|save| save as &Save<'_>))?;
+    let comparison =
+        Comparison::of(&study, named, config.run.threads, save.as_ref().map(|save| save as &Save<'_>))?;
     out!("{}", comparison.to_text());
     let deviations = Deviations::of(&comparison);
     if let Some(deviations) = &deviations {

@@ -56,7 +56,12 @@ pub fn run(args: Args, _console: &Console) -> Result<ExitCode, CliError> {
     outln!("\nlimits of the pattern");
     for limit in &developed.design.limits {
         let state = if limit.excess > 0.0 { "EXCEEDED" } else { "kept" };
-        outln!("  {:<22} {:>12}  limit {:>10}  {state}", limit.name, significant(limit.value), significant(limit.limit));
+        outln!(
+            "  {:<22} {:>12}  limit {:>10}  {state}",
+            limit.name,
+            significant(limit.value),
+            significant(limit.limit)
+        );
     }
     if let Some(results) = &developed.results {
         requirements(results, &developed.design.pattern.positions);
@@ -138,7 +143,8 @@ fn also(results: &Detailed, positions: &[[f64; 3]]) {
     ];
     outln!("\nthe worst of all combinations");
     for (name, unit, of) in quantities {
-        let all = results.combinations.iter().map(|combination| (&combination.name, of(&combination.metrics)));
+        let all =
+            results.combinations.iter().map(|combination| (&combination.name, of(&combination.metrics)));
         let Some((combination, (value, place))) = all.max_by(|a, b| a.1.0.total_cmp(&b.1.0)) else { return };
         let place = match value > 0.0 {
             true => format!("in {combination}, at {}", describe(place, results, positions)),

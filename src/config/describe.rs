@@ -291,7 +291,11 @@ fn describe_search(config: &Config) -> Vec<String> {
     let mut stops = vec![format!("{} generations", search.generations)];
     stops.extend(search.evaluations.map(|n| format!("{n} structural evaluations")));
     stops.extend(search.minutes.map(|minutes| format!("{minutes} minutes")));
-    stops.extend(search.stall_generations.map(|n| format!("{n} generations without a better front, once there is one")));
+    stops.extend(
+        search
+            .stall_generations
+            .map(|n| format!("{n} generations without a better front, once there is one")),
+    );
     let seed = config.run.seed.map_or("drawn at random".to_owned(), |seed| seed.to_string());
     vec![
         format!(

@@ -114,8 +114,7 @@ mod tests {
 
     #[test]
     fn rounding_is_no_difference() {
-        let points: Vec<Vec<f64>> =
-            (0..9).map(|i| vec![1.0 + 1e-12 * f64::from(i), f64::from(i)]).collect();
+        let points: Vec<Vec<f64>> = (0..9).map(|i| vec![1.0 + 1e-12 * f64::from(i), f64::from(i)]).collect();
         assert_eq!(redundancies(&points), [Redundancy::Constant { objective: 0, value: 1.0 }]);
     }
 }

@@ -214,7 +214,10 @@ impl<'a> Analysed<'a> {
             scalar("axial_force_n", forces.iter().map(|f| 0.5 * (f.start.n + f.end.n)).collect()),
             scalar("moment_y_nm", forces.iter().map(|f| worse(f.start.my, f.end.my)).collect()),
             scalar("moment_z_nm", forces.iter().map(|f| worse(f.start.mz, f.end.mz)).collect()),
-            scalar("utilisation", combination.member_utilisation.iter().map(|used| self.utilisation(used)).collect()),
+            scalar(
+                "utilisation",
+                combination.member_utilisation.iter().map(|used| self.utilisation(used)).collect(),
+            ),
         ]
     }
 }

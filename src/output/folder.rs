@@ -243,7 +243,8 @@ fn refuse_newer(folder: &Path) -> Result<(), FolderError> {
 }
 
 fn has_checkpoint(folder: &Path) -> bool {
-    [CHECKPOINT, CHECKPOINT_PREVIOUS].iter().any(|name| folder.join(name).exists()) || journal(folder).exists()
+    [CHECKPOINT, CHECKPOINT_PREVIOUS].iter().any(|name| folder.join(name).exists())
+        || journal(folder).exists()
 }
 
 /// The journal of a folder: a run that was begun under its old name keeps it.

@@ -193,7 +193,10 @@ pub(super) fn row(record: Record<'_>, columns: &Columns) -> Result<EvaluatedRow,
     let [_, string, expressed, code, generation, _] = FIRST;
     let [stage, measure, reason] = LAST;
     let bits = u64::from_str_radix(digits(record.text(code)?), 16).map_err(|_| {
-        record.wrong(format!("code: found \"{}\"; allowed: q and 16 hex digits", record.text(code).unwrap_or_default()))
+        record.wrong(format!(
+            "code: found \"{}\"; allowed: q and 16 hex digits",
+            record.text(code).unwrap_or_default()
+        ))
     })?;
     let objectives = record.numbers(&columns.objectives)?;
     let in_history = record.sheet.columns.contains_key(stage);

@@ -309,7 +309,9 @@ impl Developed {
 
     /// Its supported nodes, and whether they are held horizontally; none where nothing was analysed.
     pub(super) fn supports(&self) -> Vec<([f64; 3], bool)> {
-        let Some(frame) = self.results.as_ref().map(|results| &results.model.frame) else { return Vec::new() };
+        let Some(frame) = self.results.as_ref().map(|results| &results.model.frame) else {
+            return Vec::new();
+        };
         let nodes = frame.supported().map(|node| node.0 as usize);
         nodes.map(|n| (frame.nodes()[n], frame.fixed()[n][0] || frame.fixed()[n][1])).collect()
     }

@@ -50,7 +50,8 @@ const COMMON: &str = ".title{font:bold 14px sans-serif;fill:#111}.scale{fill:non
 /// horizontally too, for a support.
 pub fn svg(pattern: &Pattern, title: &str, plan: &Plan<'_>) -> Vec<u8> {
     let frame = Frame::of(&pattern.positions);
-    let lines = 1.0 + f64::from(u8::from(plan.shade.is_some())) + f64::from(u8::from(!plan.supports.is_empty()));
+    let lines =
+        1.0 + f64::from(u8::from(plan.shade.is_some())) + f64::from(u8::from(!plan.supports.is_empty()));
     let (width, foot) = (frame.width + 2.0 * MARGIN, frame.height + 2.0 * MARGIN);
     let mut text = begin(width, foot + LINE * lines, title, STYLE);
     panels(&mut text, pattern, &frame, plan.shade.as_ref());
@@ -162,7 +163,8 @@ impl Frame {
     pub(super) fn scale_bar(&self, [x, y]: [f64; 2]) -> String {
         let most = 0.25 * SIZE / self.scale;
         let power = 10f64.powi(most.log10().floor() as i32);
-        let length = [5.0, 2.0, 1.0].map(|step| step * power).into_iter().find(|&step| step <= most).unwrap_or(power);
+        let length =
+            [5.0, 2.0, 1.0].map(|step| step * power).into_iter().find(|&step| step <= most).unwrap_or(power);
         let (end, y) = (x + length * self.scale, y - 4.0);
         let [x0, x1, top, low, label, base] =
             [x, end, y - 4.0, y, end + 8.0, y + 4.0].map(|coordinate| rounded(coordinate, 1));

@@ -1,8 +1,8 @@
 //! From a results folder to [`ReportData`]: what the files say is what the page shows.
 
 use super::choose::worth_a_mesh;
-use super::families::{HANDFUL, families};
 use super::data::{Design, Generation, Metric, Obstacle, ReportData, Run, Sample, Spread};
+use super::families::{HANDFUL, families};
 use super::{measure, shape};
 use crate::mesh::QuadMesh;
 use crate::objectives::{self, METRICS};

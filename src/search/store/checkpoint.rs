@@ -104,9 +104,7 @@ impl Checkpoint {
 /// Reads a checkpoint; `None` if there is no such file, an error if it cannot be used.
 pub(super) fn read(path: &Path) -> Result<Option<Checkpoint>, Unusable> {
     match fs::read(path) {
-        Ok(bytes) => {
-            Checkpoint::parse(std::str::from_utf8(&bytes)?).map(Some)
-        }
+        Ok(bytes) => Checkpoint::parse(std::str::from_utf8(&bytes)?).map(Some),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(error.into()),
     }
