@@ -136,7 +136,8 @@ fn requirements(results: &Detailed, positions: &[[f64; 3]]) {
 
 /// What a structure must be told of, whether it is limited or not, where it is worst.
 fn also(results: &Detailed, positions: &[[f64; 3]]) {
-    let quantities: [(&str, f64, fn(&Metrics) -> (f64, Place)); 3] = [
+    type Of = fn(&Metrics) -> (f64, Place);
+    let quantities: [(&str, f64, Of); 3] = [
         ("utilisation_von_mises", 1.0, |metrics| metrics.von_mises),
         ("uplift", 1e-3, |metrics| metrics.uplift),
         ("support_slide", 1.0, |metrics| metrics.slide),
