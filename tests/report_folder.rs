@@ -116,7 +116,7 @@ fn decoded(string: &str) -> serde_json::Value {
         "json",
     ]);
     let printed = command.output().expect("it runs").stdout;
-    serde_json::from_slice::<serde_json::Value>(&printed).unwrap()["summary"]["singularities"].clone()
+    serde_json::from_slice::<serde_json::Value>(&printed).expect("JSON")["summary"]["singularities"].clone()
 }
 
 #[test]
