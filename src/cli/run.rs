@@ -10,6 +10,7 @@ use super::{CliError, Console, exit, signals};
 use quadrille::config::{Config, Project, to_toml};
 use quadrille::output::folder::{Folder, FolderError, Opening, PARETO, REPORT, excel_name};
 use quadrille::output::manifest::Status;
+use quadrille::output::number::significant;
 use quadrille::output::obstacles::Obstacles;
 use quadrille::output::report;
 use quadrille::output::results::{self, Run};
@@ -73,6 +74,8 @@ enum CsvDialect {
 pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     let mut project = args.config.load(&args.sets())?;
     let study = args.config.study(&project)?;
+    // Before the folder is touched: a run without threads leaves it as it was.
+    let server = ThreadServer::new(&study, project.config.run.threads)?;
     let path = args.folder(&project.config);
     refuse_file(&path)?;
     let seed = fix_seed(&mut project.config, &path, args.resume)?;
@@ -87,7 +90,7 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     let clock = Instant::now();
     let mut watch =
         Watch { display: Display::new(&project.config, study.baseline(), *console), sitting, folder };
-    let outcome = evolve(&study, &project.config, &mut store, &stop, &mut watch, console)?;
+    let outcome = evolve(&study, server, &project.config, &mut store, &stop, &mut watch, console)?;
     let Watch { mut sitting, mut folder, .. } = watch;
     let dialect = args.dialect(&folder);
     let run = Run { study: &study, project: &project, outcome: &outcome, dialect };
@@ -230,6 +233,7 @@ fn fix_seed(config: &mut Config, folder: &Path, resume: bool) -> Result<Option<S
 /// Runs the search.
 fn evolve(
     study: &Study,
+    server: ThreadServer<'_, Study>,
     config: &Config,
     store: &mut Store,
     stop: &StopFlag,
@@ -246,7 +250,6 @@ fn evolve(
     let tell = watch.display.teller();
     let told = "ending with the evaluations in flight; another signal after a second aborts at once";
     signals::install(stop, move || tell(told)).map_err(failed)?;
-    let server = ThreadServer::new(study, config.run.threads).map_err(failed)?;
     console.note(&format!(
         "{}: population {}, {} generations, {} threads, minimising {}",
         config.run.name.as_deref().unwrap_or_default(),
@@ -280,7 +283,7 @@ fn summarise(study: &Study, outcome: &Outcome, folder: &Folder, clock: Instant, 
         let values = outcome.front.iter().map(|&row| outcome.evaluated[row].objectives[i]);
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
         if low.is_finite() {
-            outln!("  {:<24} {low:>12.6} to {high:>12.6}", objective.column);
+            outln!("  {:<24} {:>12} to {:>12}", objective.column, significant(low), significant(high));
         }
     }
     if outcome.front.is_empty() {

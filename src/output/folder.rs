@@ -1,10 +1,10 @@
 //! The results folder: where each file is, who may write, and whether a run is finished.
 
 use super::atomic;
-use super::holds::{check, listed};
+use super::holds::{check, is_journal, listed};
 use super::ledger::{Files, Ledger};
 use super::lock::{Lock, Try};
-use super::manifest::{Manifest, Status};
+use super::manifest::{Manifest, ManifestError, Status};
 use crate::io::{hex, sha256};
 use sha2::{Digest, Sha256};
 use std::fs;
@@ -36,7 +36,9 @@ pub const DESIGN_EXPLORER: &str = "design_explorer";
 /// Folder of the pictures that `explain` draws.
 pub const EXPLAINED: &str = "explained";
 /// Every evaluation of a run, as they come.
-pub const JOURNAL: &str = "evaluations.jsonl";
+pub const JOURNAL: &str = "evaluations.journal";
+/// Its name in runs of quadrille 0.1, which go on with it.
+pub const JOURNAL_BEFORE: &str = "evaluations.jsonl";
 
 /// The tables of a run.
 pub const TABLES: [&str; 4] = [PARETO, HISTORY, GENERATIONS, OPERATORS];
@@ -68,6 +70,14 @@ pub enum FolderError {
     /// A file is where a folder has to be.
     #[error("{} is no folder, and a run needs one of that name; give another --out", .0.display())]
     NoFolder(PathBuf),
+    /// A later program wrote it: what is whose cannot be told.
+    #[error("{}: {reason}; or give another --out", path.display())]
+    Newer {
+        /// The manifest.
+        path: PathBuf,
+        /// Whose it is.
+        reason: ManifestError,
+    },
     /// There is nothing to go on with.
     #[error("{} holds no checkpoint to resume", .0.display())]
     NoCheckpoint(PathBuf),
@@ -298,6 +308,13 @@ pub fn list(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), FolderError> 
     manifest.files.insert(name.to_owned(), Some(sha256(bytes)));
     let path = folder.join(MANIFEST);
     atomic::write(&path, &manifest.to_json()).map_err(|source| FolderError::Io { path, source })
+}
+
+/// The journal of a folder: a run that was begun under its old name keeps it.
+pub fn journal(folder: &Path) -> PathBuf {
+    let [path, before] = [JOURNAL, JOURNAL_BEFORE].map(|name| folder.join(name));
+    // Tables of evaluations by other programs have that name too.
+    if !path.exists() && is_journal(&before) { before } else { path }
 }
 
 /// The name of a table's copy for a spreadsheet with decimal commas: `pareto.csv` → `pareto.excel-eu.csv`.

@@ -1,12 +1,12 @@
 //! What a folder holds before a run begins there, and whether the run may.
 
 use super::folder::{
-    CHANGING, CHECKPOINT, CHECKPOINT_PREVIOUS, DESIGN_EXPLORER, DESIGNS, FOLDERS, FolderError, JOURNAL,
-    Opening, TABLES, excel_name,
+    CHANGING, CHECKPOINT, CHECKPOINT_PREVIOUS, DESIGN_EXPLORER, DESIGNS, FOLDERS, FolderError,
+    JOURNAL_BEFORE, MANIFEST, Opening, TABLES, excel_name, journal,
 };
 use super::ledger::Files;
-use super::manifest::{Manifest, Status};
-use std::fs::File;
+use super::manifest::{Manifest, ManifestError, Status};
+use std::fs::{self, File};
 use std::io::Read;
 use std::path::Path;
 
@@ -35,6 +35,7 @@ impl Holds {
 
 /// Refuses a folder that `opening` does not allow for.
 pub(super) fn check(folder: &Path, opening: Opening, has_lock: bool) -> Result<(), FolderError> {
+    refuse_newer(folder)?;
     let holds = Holds::of(folder);
     let path = || folder.to_path_buf();
     match (opening, holds) {
@@ -72,16 +73,33 @@ pub(super) fn listed(folder: &Path) -> Files {
         return files;
     }
     let names = CHANGING.into_iter().chain(TABLES).map(str::to_owned).chain(TABLES.map(excel_name));
-    names.filter(|name| folder.join(name).exists()).map(|name| (name, None)).collect()
+    let before = Some(JOURNAL_BEFORE).filter(|name| is_journal(&folder.join(name))).map(str::to_owned);
+    names.chain(before).filter(|name| folder.join(name).exists()).map(|name| (name, None)).collect()
 }
 
 /// Whether there is a journal or a checkpoint, and of this program's: other programs have files of these names too.
 fn has_state(folder: &Path) -> bool {
-    let names =
-        [(JOURNAL, "{\"journal\":"), (CHECKPOINT, "\"checksum\":"), (CHECKPOINT_PREVIOUS, "\"checksum\":")];
-    names.iter().any(|(name, mark)| {
-        let mut start = Vec::new();
-        let read = File::open(folder.join(name)).and_then(|file| file.take(128).read_to_end(&mut start));
-        read.is_ok() && String::from_utf8_lossy(&start).contains(mark)
-    })
+    let is_checkpoint = |name| begins_with(&folder.join(name), "\"checksum\":");
+    is_journal(&journal(folder)) || [CHECKPOINT, CHECKPOINT_PREVIOUS].into_iter().any(is_checkpoint)
+}
+
+/// Whether a file is the journal of a run.
+pub(super) fn is_journal(path: &Path) -> bool {
+    begins_with(path, "{\"journal\":")
+}
+
+/// Whether a file has `mark` near its beginning.
+fn begins_with(path: &Path, mark: &str) -> bool {
+    let mut start = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(128).read_to_end(&mut start));
+    read.is_ok() && String::from_utf8_lossy(&start).contains(mark)
+}
+
+/// Refuses the folder of a later program, also to be overwritten.
+fn refuse_newer(folder: &Path) -> Result<(), FolderError> {
+    let path = folder.join(MANIFEST);
+    match fs::read(&path).map(|bytes| Manifest::parse(&bytes)) {
+        Ok(Err(reason @ ManifestError::Newer { .. })) => Err(FolderError::Newer { path, reason }),
+        _ => Ok(()),
+    }
 }
