@@ -1,6 +1,6 @@
 //! A whole analysis of one model under one combination: what `quadrille frame` prints.
 
-use super::buckling::{self, Search};
+use super::buckling;
 use super::forces::{MemberForces, Utilisation};
 use super::mechanism::{self, FreeMotion};
 use super::model::{FrameModel, MemberId, NodeId};
@@ -20,6 +20,9 @@ pub struct FrameAnalysis {
 
 /// Change of the axial forces, relative to the largest, at which second order has converged.
 const SECOND_ORDER_TOLERANCE: f64 = 1e-11;
+
+/// Residual of a mode that is only to name what gives way.
+pub const NAMING: f64 = 1e-4;
 
 /// Out of balance by more than this share of the largest force, an answer is none.
 const BALANCE: f64 = 1e-7;
@@ -100,8 +103,7 @@ pub fn frame(model: &FrameModel, analysis: &FrameAnalysis) -> Result<FrameResult
     let mut axial = Vec::new();
     solver.axial_forces(&first, &mut axial);
     silence(&solver, &first, &mut axial);
-    let search = Search { modes: analysis.buckling_modes, tolerance: 1e-8 };
-    let modes = buckling::modes(&mut solver, &axial, search)?;
+    let buckling_factors = buckling::factors(&mut solver, &axial, analysis.buckling_modes)?;
     let result = if analysis.order == 2 {
         let u = solver
             .second_order(&f, &axial, SECOND_ORDER_TOLERANCE)
@@ -114,7 +116,7 @@ pub fn frame(model: &FrameModel, analysis: &FrameAnalysis) -> Result<FrameResult
         collect(&solver, &first, None, &loads, &f)
     };
     Ok(FrameResult {
-        buckling_factors: modes.iter().map(|m| m.factor).collect(),
+        buckling_factors,
         order: analysis.order,
         ..result
     })
@@ -142,8 +144,7 @@ pub fn silence(solver: &Solver<'_>, u: &[f64], axial: &mut [f64]) {
 
 /// Names what gives way: the first buckling mode under the first-order axial forces.
 fn unstable(solver: &mut Solver<'_>, axial: &[f64], _: Unstable) -> FrameError {
-    let search = Search { modes: 1, tolerance: 1e-4 };
-    match buckling::modes(solver, axial, search).ok().and_then(|mut m| m.pop()) {
+    match buckling::first(solver, axial, NAMING).ok().flatten() {
         Some(mode) => FrameError::Unstable(mechanism::largest(solver.model(), solver.system(), &mode.shape)),
         None => FrameError::NoConvergence,
     }

@@ -313,6 +313,13 @@ impl<'m> Solver<'m> {
     /// # Errors
     /// [`NotPositive`] if it is not positive definite, that is (with N fixed) if s is past the critical factor.
     pub fn factorise_shifted(&mut self, axial: &[f64], s: f64) -> Result<(), NotPositive> {
+        self.assemble_shifted(axial, s);
+        let outcome = self.factor.factorise(&self.system, &self.shifted);
+        self.factored = if outcome.is_ok() { Factored::Other } else { Factored::Nothing };
+        outcome
+    }
+
+    fn assemble_shifted(&mut self, axial: &[f64], s: f64) {
         self.assemble();
         self.shifted.clear();
         self.shifted.extend_from_slice(&self.matrix);
@@ -320,9 +327,21 @@ impl<'m> Solver<'m> {
             self.system.add(&mut self.shifted, m, &element::geometric(axes), s * axial[m]);
         }
         self.system.hold(&mut self.shifted, 1.0);
-        let outcome = self.factor.factorise(&self.system, &self.shifted);
-        self.factored = if outcome.is_ok() { Factored::Other } else { Factored::Nothing };
-        outcome
+    }
+
+    /// Whether K + s Kg(N) is positive definite: whether no factor lies below s. The factor then is of nothing.
+    pub fn is_definite(&mut self, axial: &[f64], s: f64) -> bool {
+        let definite = self.factorise_shifted(axial, s).is_ok();
+        self.factored = Factored::Nothing;
+        definite
+    }
+
+    /// How many factors λ of (K + λ Kg(N)) φ = 0 lie between 0 and s: the negative pivots of K + s Kg. The factor then
+    /// is of nothing. None if a pivot is not a number.
+    pub fn factors_below(&mut self, axial: &[f64], s: f64) -> Option<usize> {
+        self.assemble_shifted(axial, s);
+        self.factored = Factored::Nothing;
+        self.factor.negative_pivots(&self.system, &self.shifted)
     }
 
     /// K with the held unknowns taken out (diagonal 1), assembled.

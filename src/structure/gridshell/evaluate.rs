@@ -3,9 +3,9 @@
 use super::metrics::{self, Answer, Metrics};
 use super::model::GridshellModel;
 use super::{AnalysisError, BucklingMode, Certificate, Place, Proof, RequirementResult, Response};
-use crate::structure::buckling::{self, Mode, Search};
+use crate::structure::buckling::{self, Mode};
 use crate::structure::forces::{MemberForces, Utilisation};
-use crate::structure::frame::{by_node, silence};
+use crate::structure::frame::{NAMING, by_node, silence};
 use crate::structure::mechanism;
 use crate::structure::model::NodeId;
 use crate::structure::params::{HeightParams, Quantity, RequirementParams, StructureParams};
@@ -295,12 +295,8 @@ impl<'a> Evaluator<'a> {
     /// Names what gives way in a combination: the first buckling mode under its first-order axial forces.
     fn unstable(&mut self, index: usize) -> AnalysisError {
         self.find_first_axial_forces();
-        let search = Search { modes: 1, tolerance: 1e-4 };
         let state = &self.states[index];
-        match buckling::modes(&mut self.solver, &state.first_axial, search)
-            .ok()
-            .and_then(|mut modes| modes.pop())
-        {
+        match buckling::first(&mut self.solver, &state.first_axial, NAMING).ok().flatten() {
             Some(mode) => AnalysisError::Unstable {
                 combination: state.name.clone(),
                 motion: mechanism::largest(self.solver.model(), self.solver.system(), &mode.shape),
@@ -358,10 +354,12 @@ impl<'a> Evaluator<'a> {
         self.factored_at = self.current.map_or(0.0, |current| current.height);
         self.find_first_axial_forces();
         let state = &self.states[index];
-        let search = Search { modes: 1, tolerance: MODE_TOLERANCE };
-        let mode = buckling::modes(&mut self.solver, &state.first_axial, search)
-            .map_err(|_| AnalysisError::NoConvergence("buckling"))?
-            .pop();
+        let mode = buckling::first(&mut self.solver, &state.first_axial, MODE_TOLERANCE)
+            .map_err(|_| AnalysisError::NoConvergence("buckling"))?;
+        if self.states.iter().all(|state| state.stable) {
+            // Nobody else is going to: the next height may want the factor of this one.
+            self.solver.refactorise().map_err(|_| AnalysisError::NoConvergence("buckling"))?;
+        }
         self.states[index].mode = Some(mode.clone());
         Ok(mode)
     }
