@@ -5,18 +5,61 @@
 //! one factor serves several heights. Factor by factor: each step solves with K + Kg(N) of the step before; it works up
 //! to the critical load, costs a factorisation a step, and is what `frame` and the cases close to the critical load use.
 //!
+//! An iterate past the critical load proves nothing, for the first-order N may be far from those of equilibrium. So where
+//! one is met, or N does not settle, the load is followed from nothing in steps that adapt; only where no step however
+//! small goes further is the structure unstable, or the iteration at its end. Which of the two tells the state reached.
+//!
 //! That an iteration settles does not prove that K + Kg is positive definite: motions that the load does not excite
 //! are not seen. Whether it is, is for a Cholesky factorisation of K + Kg at the settled N to tell.
 
 use super::solver::Solver;
 
-/// Why an iteration in second order gave no answer.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Unstable {
-    /// K + Kg is not positive definite.
+/// Why there is no answer in second order.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Reason {
+    /// K + Kg is not positive definite, or the displacements grow without bounds.
     PastCritical,
-    /// The axial forces did not settle.
+    /// The axial forces do not settle, though nothing says that the structure gives way.
     NoConvergence,
+}
+
+/// Where the path of equilibrium ends before the whole load is on.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Lost {
+    /// Why.
+    pub reason: Reason,
+    /// The share of the load up to which there is an answer.
+    pub share: f64,
+    /// The axial forces there, N.
+    pub axial: Vec<f64>,
+}
+
+/// The least step, as a share of the whole load, in which it is followed: how closely the critical load is told.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct LeastStep(pub f64);
+
+/// Where the path ends, K + Kg with Kg this many least steps further must be indefinite, or the axial forces must grow
+/// this many times faster than at first, for the structure to be called unstable.
+const BEYOND: f64 = 4.0;
+const FASTER: f64 = 8.0;
+/// Factorisations for one equilibrium: of the whole load at once, and of a step.
+const MOST_AT_ONCE: usize = 100;
+const MOST_IN_STEP: usize = 40;
+/// Of these, the plain ones; then each is corrected by the one before (Anderson 1965, depth 1).
+const PLAIN: usize = 8;
+/// Tolerance of the states in between.
+const ON_THE_WAY: f64 = 1e-6;
+/// Change of the displacements in the norm of strain energy, beside the whole, that is as good as none. Unlike that of
+/// the axial forces it does not drown in rounding where N is next to nothing: EA/L times the last digit of a large
+/// displacement is a large force, but a small energy.
+const ENERGY: f64 = 1e-10;
+/// A change that shrinks less than this shrinks no more.
+const SHRINKS: f64 = 0.5;
+
+/// A state of equilibrium.
+struct State {
+    u: Vec<f64>,
+    axial: Vec<f64>,
 }
 
 /// Steps of the iteration with one factor; those that shrink the change so slowly that it would not do leave
@@ -128,17 +171,38 @@ impl Solver<'_> {
         worst
     }
 
-    /// Second order, factor by factor: (K + Kg(N)) u = f with N of u, from the `first`-order N, until N changes by no
-    /// more than `tolerance` × max |N|. The last factor proves that the answer is stable.
+    /// Second order, factor by factor: (K + Kg(N)) u = f with N of u, at once from the `first`-order N, else following
+    /// the load in steps, until N changes by no more than `tolerance` × max |N| or rounding lets it come no nearer. The
+    /// last factor proves that the answer is stable.
     ///
     /// # Errors
-    /// [`Unstable`] if K + Kg is not positive definite, or N does not settle.
-    pub fn second_order(&mut self, f: &[f64], first: &[f64], tolerance: f64) -> Result<Vec<f64>, Unstable> {
-        const MOST: usize = 200;
-        let mut axial = first.to_vec();
+    /// [`Lost`] where the path of equilibrium ends before.
+    pub fn second_order(
+        &mut self,
+        f: &[f64],
+        first: &[f64],
+        tolerance: f64,
+        least: LeastStep,
+    ) -> Result<Vec<f64>, Lost> {
+        match self.equilibrium(f, first.to_vec(), tolerance, MOST_AT_ONCE) {
+            Ok(state) => Ok(state.u),
+            Err(_) => self.follow(f, first, tolerance, least),
+        }
+    }
+
+    /// The equilibrium under a load, from a guess of N.
+    fn equilibrium(
+        &mut self,
+        f: &[f64],
+        mut axial: Vec<f64>,
+        tolerance: f64,
+        most: usize,
+    ) -> Result<State, Reason> {
         let mut next = Vec::new();
-        for _ in 0..MOST {
-            self.factorise_shifted(&axial, 1.0).map_err(|_| Unstable::PastCritical)?;
+        let (mut before, mut change_before): (Option<Vec<f64>>, f64) = (None, f64::INFINITY);
+        let mut secant = Secant::default();
+        for step in 0..most {
+            self.factorise_shifted(&axial, 1.0).map_err(|_| Reason::PastCritical)?;
             let mut u = f.to_vec();
             self.solve_as_factorised(&mut u);
             let mut residual = f.to_vec();
@@ -150,15 +214,99 @@ impl Solver<'_> {
             self.axial_forces(&u, &mut next);
             let largest = next.iter().fold(0.0f64, |a, n| a.max(n.abs()));
             let change = next.iter().zip(&axial).fold(0.0f64, |a, (n, o)| a.max((n - o).abs()));
-            std::mem::swap(&mut axial, &mut next);
-            if change <= tolerance * largest {
-                return match self.factorise_shifted(&axial, 1.0) {
-                    Ok(()) => Ok(u),
-                    Err(_) => Err(Unstable::PastCritical),
-                };
+            let settled = change <= tolerance * largest
+                || (change > SHRINKS * change_before
+                    && before.as_ref().is_some_and(|before| self.is_same(&u, before, tolerance.max(ENERGY))));
+            if settled {
+                self.factorise_shifted(&next, 1.0).map_err(|_| Reason::PastCritical)?;
+                return Ok(State { u, axial: next });
+            }
+            secant.step(&mut axial, &next, step >= PLAIN);
+            (before, change_before) = (Some(u), change);
+        }
+        Err(Reason::NoConvergence)
+    }
+
+    /// Whether two displacements differ by no more than a share of the first, in the norm of strain energy.
+    fn is_same(&self, u: &[f64], v: &[f64], share: f64) -> bool {
+        let change: Vec<f64> = u.iter().zip(v).map(|(u, v)| u - v).collect();
+        self.twice_energy(&change) <= share * share * self.twice_energy(u)
+    }
+
+    /// The load from nothing to the whole, in steps that halve where there is no equilibrium in sight.
+    fn follow(
+        &mut self,
+        f: &[f64],
+        first: &[f64],
+        tolerance: f64,
+        LeastStep(least): LeastStep,
+    ) -> Result<Vec<f64>, Lost> {
+        let scaled = |share: f64, v: &[f64]| v.iter().map(|v| share * v).collect::<Vec<f64>>();
+        let mut share = 0.0;
+        let mut axial = vec![0.0; first.len()];
+        // How N grows with the share: at first as in first order, then as in the step before.
+        let mut growth = first.to_vec();
+        let mut step = 0.5f64;
+        loop {
+            let next = (share + step).min(1.0);
+            let guess = axial.iter().zip(&growth).map(|(n, g)| n + (next - share) * g).collect();
+            let (tolerance, most) =
+                if next == 1.0 { (tolerance, MOST_AT_ONCE) } else { (ON_THE_WAY, MOST_IN_STEP) };
+            match self.equilibrium(&scaled(next, f), guess, tolerance, most) {
+                Ok(state) if next == 1.0 => return Ok(state.u),
+                Ok(state) => {
+                    let taken = next - share;
+                    growth = state.axial.iter().zip(&axial).map(|(n, o)| (n - o) / taken).collect();
+                    (share, axial) = (next, state.axial);
+                    step = (1.5 * taken).min(1.0 - share);
+                }
+                Err(_) if step > least => step *= 0.5,
+                Err(_) => {
+                    let reason = self.reason(share, &axial, &growth, first, step);
+                    return Err(Lost { reason, share, axial });
+                }
             }
         }
-        Err(Unstable::NoConvergence)
+    }
+
+    /// Why no step leads beyond the state at a share of the load.
+    fn reason(&mut self, share: f64, axial: &[f64], growth: &[f64], first: &[f64], step: f64) -> Reason {
+        let largest = |v: &[f64]| v.iter().fold(0.0f64, |a, v| a.max(v.abs()));
+        // At a limit point N grows without bounds, at a bifurcation K + Kg loses its definiteness.
+        let ahead: Vec<f64> = axial.iter().zip(growth).map(|(n, g)| n + BEYOND * step * g).collect();
+        if share == 0.0 || largest(growth) > FASTER * largest(first) || !self.is_definite(&ahead, 1.0) {
+            Reason::PastCritical
+        } else {
+            Reason::NoConvergence
+        }
+    }
+}
+
+/// The last step of an iteration N ← g(N).
+#[derive(Default)]
+struct Secant {
+    /// g(N) and g(N) − N.
+    before: Option<(Vec<f64>, Vec<f64>)>,
+}
+
+impl Secant {
+    /// N ← g(N), `image`; corrected so that the change, if g were linear along the last step, would be least.
+    fn step(&mut self, axial: &mut Vec<f64>, image: &[f64], correct: bool) {
+        let change: Vec<f64> = image.iter().zip(axial.iter()).map(|(g, n)| g - n).collect();
+        axial.clear();
+        axial.extend_from_slice(image);
+        if let (true, Some((image_before, change_before))) = (correct, &self.before) {
+            let (mut product, mut square) = (0.0, 0.0);
+            for (now, before) in change.iter().zip(change_before) {
+                product += now * (now - before);
+                square += (now - before) * (now - before);
+            }
+            let theta = if square > 0.0 { product / square } else { 0.0 };
+            for ((n, now), before) in axial.iter_mut().zip(image).zip(image_before) {
+                *n -= theta * (now - before);
+            }
+        }
+        self.before = Some((image.to_vec(), change));
     }
 }
 

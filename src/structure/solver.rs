@@ -47,6 +47,15 @@ enum Factored {
     Other,
 }
 
+/// Why a stiffness cannot be used.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Unsound {
+    /// Something moves freely.
+    Mechanism(FreeMotion),
+    /// Nothing does, but rounding has used up all digits.
+    IllConditioned,
+}
+
 impl<'m> Solver<'m> {
     /// Prepares the model; no stiffness yet.
     ///
@@ -91,8 +100,8 @@ impl<'m> Solver<'m> {
     /// Assembles and factorises the stiffness with these sections (one for each of the model's).
     ///
     /// # Errors
-    /// The motion that costs (next to) nothing, if there is one.
-    pub fn set_sections(&mut self, sections: &[Section]) -> Result<(), FreeMotion> {
+    /// [`Unsound`].
+    pub fn set_sections(&mut self, sections: &[Section]) -> Result<(), Unsound> {
         self.use_sections(sections);
         self.assemble();
         let factored = self.refactorise();
@@ -103,6 +112,13 @@ impl<'m> Solver<'m> {
         if !suspicious {
             return Ok(());
         }
+        if let Some(motion) = mechanism::rigid_motion(self.model, &self.system) {
+            return Err(Unsound::Mechanism(motion));
+        }
+        // Members that resist every motion, joined rigidly and held, are no mechanism, however soft.
+        if self.sections.iter().all(Section::resists_all) {
+            return factored.map_err(|_| Unsound::IllConditioned);
+        }
         self.factored = Factored::Nothing;
         match mechanism::free_motion(
             self.model,
@@ -111,9 +127,9 @@ impl<'m> Solver<'m> {
             &self.matrix,
             &mut self.factor,
         ) {
-            Some(motion) => Err(motion),
+            Some(motion) => Err(Unsound::Mechanism(motion)),
             // The search for a free motion has used the factor's room.
-            None => self.refactorise().map_err(|e| mechanism::named(&self.system, e.unknown)),
+            None => self.refactorise().map_err(|_| Unsound::IllConditioned),
         }
     }
 
@@ -281,6 +297,16 @@ impl<'m> Solver<'m> {
                 EndActions { force: back(&actions.force), m1: back(&actions.m1), m2: back(&actions.m2) };
             scatter(&actions, slot.start, slot.end, -1.0, r);
         }
+    }
+
+    /// Twice the strain energy of displacements, from the deformations of the elements.
+    pub fn twice_energy(&self, u: &[f64]) -> f64 {
+        let members = self.model.axes().iter().zip(self.system.slots()).zip(&self.stiffness);
+        members
+            .map(|((axes, slot), k)| {
+                k.twice_energy(&Ends::read(u, slot.start, slot.end).local(axes), axes.length)
+            })
+            .sum()
     }
 
     /// The mean axial force N of each member (tension positive): EA/L times the linear elongation.

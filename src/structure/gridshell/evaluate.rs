@@ -2,14 +2,14 @@
 
 use super::metrics::{self, Answer, Metrics};
 use super::model::GridshellModel;
-use super::{AnalysisError, BucklingMode, Certificate, Place, Proof, RequirementResult, Response};
+use super::{AnalysisError, BucklingMode, Certificate, Governing, Place, Proof, RequirementResult, Response};
 use crate::structure::buckling::{self, Mode};
 use crate::structure::forces::{MemberForces, Utilisation};
 use crate::structure::frame::{NAMING, by_node, silence};
 use crate::structure::mechanism;
 use crate::structure::model::NodeId;
-use crate::structure::params::{HeightParams, Quantity, RequirementParams, StructureParams};
-use crate::structure::second_order::{Aim, Room};
+use crate::structure::params::{Family, HeightParams, Quantity, RequirementParams, StructureParams};
+use crate::structure::second_order::{Aim, LeastStep, Reason, Room};
 use crate::structure::section::Section;
 use crate::structure::solver::{Combination, Solver};
 use nalgebra::Vector3;
@@ -22,6 +22,9 @@ const FIRST_ORDER_TOLERANCE: f64 = 1e-9;
 /// Difference of the logarithms of two heights up to which one's factor serves the other: there the iteration takes
 /// as long as a factorisation.
 const NEAR: f64 = 0.08;
+/// In how small steps the load is followed where it is not carried at once: a search asks whether a design stands, not
+/// how nearly.
+const LEAST_STEP: LeastStep = LeastStep(1.0 / 16.0);
 /// How many times the distance of two known heights their line is followed for a first guess.
 const FURTHEST: f64 = 2.0;
 
@@ -74,6 +77,21 @@ pub struct Evaluator<'a> {
     first_known: bool,
     /// The last heights before this one and their displacements.
     former: [(f64, Vec<f64>); 2],
+}
+
+/// The worst of a quantity over combinations.
+#[derive(Clone, Copy, Debug)]
+struct Worst {
+    value: f64,
+    place: Place,
+    combination: usize,
+}
+
+/// A combination without an equilibrium in second order.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fallen {
+    combination: usize,
+    reason: Reason,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -132,9 +150,9 @@ impl<'a> Evaluator<'a> {
         if self.params.order == 2 { self.params.second_order_tolerance } else { FIRST_ORDER_TOLERANCE }
     }
 
-    /// The same up to `tolerance` of the largest displacement and axial force. Gives the combination that is past its
-    /// critical load, if one is.
-    pub fn statics_within(&mut self, height: f64, tolerance: f64) -> Result<Option<usize>, AnalysisError> {
+    /// The same up to `tolerance` of the largest displacement and axial force. Gives the combination that has no
+    /// equilibrium, if one has none.
+    pub fn statics_within(&mut self, height: f64, tolerance: f64) -> Result<Option<Fallen>, AnalysisError> {
         match self.current {
             Some(current) if current.height == height => {
                 if current.tolerance <= tolerance {
@@ -220,7 +238,7 @@ impl<'a> Evaluator<'a> {
 
     /// All combinations together with the factor at hand; if that does not settle, with that of K; then, in second
     /// order, one by one with factors of K + Kg, which always tells.
-    fn settle(&mut self, height: f64, tolerance: f64) -> Result<Option<usize>, AnalysisError> {
+    fn settle(&mut self, height: f64, tolerance: f64) -> Result<Option<Fallen>, AnalysisError> {
         let second_order = self.params.order == 2;
         if !second_order && self.first_known {
             return Ok(None);
@@ -240,9 +258,10 @@ impl<'a> Evaluator<'a> {
         let n = self.solver.system().unknowns();
         for (s, state) in self.states.iter_mut().enumerate() {
             let columns = s * n..(s + 1) * n;
-            match self.solver.second_order(&self.f[columns.clone()], &state.first_axial, tolerance) {
+            let f = &self.f[columns.clone()];
+            match self.solver.second_order(f, &state.first_axial, tolerance, LEAST_STEP) {
                 Ok(found) => self.u[columns].copy_from_slice(&found),
-                Err(_) => return Ok(Some(s)),
+                Err(lost) => return Ok(Some(Fallen { combination: s, reason: lost.reason })),
             }
             state.stable = true;
         }
@@ -261,7 +280,9 @@ impl<'a> Evaluator<'a> {
     pub fn prove_stable(&mut self) -> Result<(), AnalysisError> {
         match self.not_stable() {
             None => Ok(()),
-            Some(fallen) => Err(self.unstable(fallen)),
+            Some(combination) => {
+                Err(self.unstable(Fallen { combination, reason: Reason::PastCritical }))
+            }
         }
     }
 
@@ -293,7 +314,10 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Names what gives way in a combination: the first buckling mode under its first-order axial forces.
-    fn unstable(&mut self, index: usize) -> AnalysisError {
+    fn unstable(&mut self, Fallen { combination: index, reason }: Fallen) -> AnalysisError {
+        if reason == Reason::NoConvergence {
+            return AnalysisError::NoConvergence("second-order");
+        }
         self.find_first_axial_forces();
         let state = &self.states[index];
         match buckling::first(&mut self.solver, &state.first_axial, NAMING).ok().flatten() {
@@ -368,25 +392,50 @@ impl<'a> Evaluator<'a> {
         self.states.iter().position(|state| state.name == name)
     }
 
-    /// The combination that gives a quantity as a metric; see the module's description.
-    fn combination_of(&self, quantity: Quantity) -> usize {
-        let deflections = [Quantity::Deflection, Quantity::DeflectionVertical];
-        let utilisations = [Quantity::Utilisation, Quantity::UtilisationAll, Quantity::UtilisationVonMises];
-        let family = [deflections.as_slice(), utilisations.as_slice(), &[Quantity::BucklingFactor]]
-            .into_iter()
-            .find(|family| family.contains(&quantity))
-            .unwrap_or(&[]);
+    /// The combinations over which a quantity is the worst as a metric, by name; see the module's description.
+    fn combinations_of(&self, quantity: Quantity) -> Vec<usize> {
         let requirements = &self.params.requirements;
-        let named = requirements
-            .iter()
-            .find(|r| r.quantity == quantity)
-            .or_else(|| requirements.iter().find(|r| family.contains(&r.quantity)))
-            .map(|r| r.combination.as_str());
-        let usual = if deflections.contains(&quantity) { "sls" } else { "uls" };
-        named
-            .and_then(|name| self.index_of(name))
-            .or_else(|| self.index_of(usual))
-            .unwrap_or(self.states.len() - 1)
+        let named = |wanted: &dyn Fn(Quantity) -> bool| -> Vec<usize> {
+            let names = |state: &State| {
+                requirements.iter().any(|r| wanted(r.quantity) && r.combination == state.name)
+            };
+            (0..self.states.len()).filter(|&s| names(&self.states[s])).collect()
+        };
+        let family = quantity.family();
+        let usual = if family == Family::Deflections { "sls" } else { "uls" };
+        let own = named(&|q| q == quantity);
+        let related = named(&|q| q.family() == family);
+        let usual = self.index_of(usual).into_iter().collect();
+        let all = (0..self.states.len()).collect();
+        [own, related, usual, all].into_iter().find(|list: &Vec<usize>| !list.is_empty()).unwrap_or_default()
+    }
+
+    /// The worst over combinations: the value, where it is, and the combination. Of equal ones the first by name.
+    fn worst(
+        &mut self,
+        combinations: &[usize],
+        of: impl Fn(&Metrics) -> (f64, Place),
+    ) -> Result<Worst, AnalysisError> {
+        let mut worst: Option<Worst> = None;
+        for &combination in combinations {
+            let (value, place) = of(&self.metrics(combination));
+            if worst.is_none_or(|worst| value > worst.value || value.is_nan()) {
+                worst = Some(Worst { value, place, combination });
+            }
+        }
+        worst.ok_or_else(no_combination)
+    }
+
+    /// The least buckling factor over the combinations of that quantity, and the combination.
+    fn least_factor(&mut self) -> Result<(f64, usize), AnalysisError> {
+        let mut least: Option<(f64, usize)> = None;
+        for s in self.combinations_of(Quantity::BucklingFactor) {
+            let factor = self.mode(s)?.map_or(f64::INFINITY, |mode| mode.factor);
+            if least.is_none_or(|(known, _)| factor < known || factor.is_nan()) {
+                least = Some((factor, s));
+            }
+        }
+        least.ok_or_else(no_combination)
     }
 
     /// How a requirement fares at the current height.
@@ -428,42 +477,66 @@ impl<'a> Evaluator<'a> {
     /// All metrics and requirements at this height.
     pub fn response(&mut self, height: f64) -> Result<Response, AnalysisError> {
         self.statics(height)?;
-        let buckling = self.combination_of(Quantity::BucklingFactor);
-        self.mode(buckling)?;
+        let (buckling_factor, buckling) = self.least_factor()?;
         let requirements: Result<Vec<_>, _> =
             self.params.requirements.iter().map(|r| self.requirement(r)).collect();
         // Last of what needs a factor: it takes the room of that of K.
         self.prove_stable()?;
-        let deflection = self.combination_of(Quantity::Deflection);
-        let uplift = (0..self.states.len()).map(|s| self.metrics(s).uplift.0).fold(0.0, f64::max);
-        let metric = |this: &mut Self, quantity| {
-            let index = this.combination_of(quantity);
-            Ok::<_, AnalysisError>(this.value(quantity, index)?.0)
-        };
-        let utilisation = self.combination_of(Quantity::Utilisation);
-        let all = self.combination_of(Quantity::UtilisationAll);
+        let deflections = self.combinations_of(Quantity::Deflection);
+        let utilisations = self.combinations_of(Quantity::Utilisation);
+        let all = self.combinations_of(Quantity::UtilisationAll);
+        let deflection = self.worst(&deflections, |m| m.deflection)?;
+        let verticals = self.combinations_of(Quantity::DeflectionVertical);
+        let vertical = self.worst(&verticals, |m| m.deflection_vertical)?;
+        let utilisation = self.worst(&utilisations, |m| m.utilisation)?;
+        let utilisation_all = self.worst(&all, |m| m.utilisation_all)?;
+        let mises = self.combinations_of(Quantity::UtilisationVonMises);
+        let von_mises = self.worst(&mises, |m| m.von_mises)?;
+        let every: Vec<usize> = (0..self.states.len()).collect();
+        let uplift = self.worst(&every, |m| m.uplift)?;
+        let slide = self.worst(&deflections, |m| m.slide)?;
         let area = self.solver.sections()[0].area;
         let mass = area * self.params.material.density_kg_m3 * self.model.total_length;
+        let name = |combination: usize| self.states[combination].name.clone();
+        let governing = Governing {
+            deflection: name(deflection.combination),
+            deflection_vertical: name(vertical.combination),
+            utilisation: name(utilisation.combination),
+            utilisation_all: name(utilisation_all.combination),
+            utilisation_von_mises: name(von_mises.combination),
+            buckling: (buckling_factor != f64::INFINITY).then(|| name(buckling)),
+            uplift: name(uplift.combination),
+            support_slide: name(slide.combination),
+        };
         let response = Response {
             height_m: height,
             height_rounded_m: rounded(height, self.params.height),
             mass_kg: mass,
             mass_per_area_kg_m2: if self.model.panel_area > 0.0 { mass / self.model.panel_area } else { 0.0 },
             member_length_m: self.model.total_length,
-            deflection_m: metric(self, Quantity::Deflection)?,
-            deflection_vertical_m: metric(self, Quantity::DeflectionVertical)?,
-            utilisation: metric(self, Quantity::Utilisation)?,
-            utilisation_all: metric(self, Quantity::UtilisationAll)?,
-            utilisation_von_mises: metric(self, Quantity::UtilisationVonMises)?,
-            utilisation_inner: self.metrics(utilisation).inner.0,
-            utilisation_all_inner: self.metrics(all).inner_all.0,
-            buckling_factor: metric(self, Quantity::BucklingFactor)?,
-            uplift_kn: uplift / 1e3,
-            support_slide_m: self.metrics(deflection).slide.0,
+            deflection_m: deflection.value,
+            deflection_place: deflection.place,
+            deflection_vertical_m: vertical.value,
+            utilisation: utilisation.value,
+            utilisation_place: utilisation.place,
+            utilisation_all: utilisation_all.value,
+            utilisation_von_mises: von_mises.value,
+            utilisation_inner: self.worst(&utilisations, |m| m.inner)?.value,
+            utilisation_all_inner: self.worst(&all, |m| m.inner_all)?.value,
+            buckling_factor,
+            uplift_kn: uplift.value / 1e3,
+            support_slide_m: slide.value,
+            governing,
             requirements: requirements?,
         };
         check_finite(&response)?;
         Ok(response)
+    }
+
+    /// The names of the combinations over which `utilisation` is the worst.
+    pub fn enveloped(&self) -> Vec<String> {
+        let combinations = self.combinations_of(Quantity::Utilisation).into_iter();
+        combinations.map(|s| self.states[s].name.clone()).collect()
     }
 
     /// Everything about each combination at the current height, and the buckling mode.
@@ -477,7 +550,7 @@ impl<'a> Evaluator<'a> {
                 self.detail(s, metrics)
             })
             .collect();
-        let index = self.combination_of(Quantity::BucklingFactor);
+        let (_, index) = self.least_factor()?;
         let Some(mode) = self.mode(index)? else { return Ok((results, None)) };
         let certificate = (proof == Proof::Certificate).then(|| self.certificate(index, mode.factor));
         let mut shape = by_node(self.solver.system(), &mode.shape, self.model.frame.nodes().len());
@@ -514,6 +587,10 @@ impl<'a> Evaluator<'a> {
             reactions: self.model.frame.supported().map(|node| (node, held(node.0 as usize))).collect(),
         }
     }
+}
+
+fn no_combination() -> AnalysisError {
+    AnalysisError::Params { key: "combinations".into(), message: "at least one combination is needed".into() }
 }
 
 fn rounded(height: f64, params: HeightParams) -> f64 {
