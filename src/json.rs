@@ -85,7 +85,10 @@ mod tests {
             error(r#"{"suports": 1}"#),
             "suports: unknown key `suports`, did you mean `supports`?; allowed here: supports, loads at line 1 column 10"
         );
-        assert!(error(r#"{"temperature": 1}"#).contains("unknown key `temperature`; allowed here: supports, loads at"));
+        assert!(
+            error(r#"{"temperature": 1}"#)
+                .contains("unknown key `temperature`; allowed here: supports, loads at")
+        );
     }
 
     #[test]

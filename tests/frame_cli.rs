@@ -118,7 +118,10 @@ fn an_unknown_key_is_an_error_with_the_nearest_at_every_depth() {
         (|m| rename(&mut m["section"], "none", "heigth"), "unknown key `heigth`"),
         (|m| m["section"]["kind"] = json!("pipe"), "unknown word `pipe`"),
         (|m| m["loads"]["nodal"] = json!([{"node": 1, "froce": [1, 0, 0]}]), "did you mean `force`?"),
-        (|m| m["loads"]["member_uniform"] = json!([{"member": 0, "force_per_lenght": [1, 0, 0]}]), "force_per_length"),
+        (
+            |m| m["loads"]["member_uniform"] = json!([{"member": 0, "force_per_lenght": [1, 0, 0]}]),
+            "force_per_length",
+        ),
         (|m| m["analysis"]["order"] = json!(0), "analysis.order = 0"),
     ];
     for (change, expected) in wrong {
@@ -142,8 +145,9 @@ fn bending_without_a_factor_says_what_the_model_leaves_out() {
             m["supports"] = json!([{"node": 0, "fixed": [true, true, true, true, true, true]}]);
             let last = m["nodes"].as_array().unwrap().len() - 1;
             m["nodes"] = json!((0..=last).map(|i| [i as f64, 0.0, 0.0]).collect::<Vec<_>>());
-            m["members"] =
-                json!((0..last).map(|i| json!({"start": i, "end": i + 1, "up": [0, 0, 1]})).collect::<Vec<_>>());
+            m["members"] = json!(
+                (0..last).map(|i| json!({"start": i, "end": i + 1, "up": [0, 0, 1]})).collect::<Vec<_>>()
+            );
             m["loads"] = json!({"nodal": [{"node": last, "force": force}]});
             m["analysis"] = json!({"order": order, "buckling_modes": modes});
         })
@@ -165,7 +169,14 @@ fn bending_without_a_factor_says_what_the_model_leaves_out() {
 fn help_tells_the_format() {
     let (code, out, _) = frame(&["--help"]);
     assert_eq!(code, 0);
-    for key in ["member_uniform", "buckling_modes", "shear_deformation", "\"fixed\"", "docs/frame.md", "lateral-torsional"] {
+    for key in [
+        "member_uniform",
+        "buckling_modes",
+        "shear_deformation",
+        "\"fixed\"",
+        "docs/frame.md",
+        "lateral-torsional",
+    ] {
         assert!(out.contains(key), "{key} is not in\n{out}");
     }
 }

@@ -8,8 +8,8 @@ use frame_support::{court, dome};
 use quadrille::geometry::Pattern;
 use quadrille::structure::gridshell::{AnalysisError, Proof, Response, analyse, analyse_detailed};
 use quadrille::structure::params::{
-    Direction, HeightParams, LoadParams, Quantity, RequirementParams, SectionParams, StructureParams, SupportParams,
-    SupportPlace,
+    Direction, HeightParams, LoadParams, Quantity, RequirementParams, SectionParams, StructureParams,
+    SupportParams, SupportPlace,
 };
 use quadrille::structure::section::Section;
 
@@ -237,7 +237,8 @@ fn metrics_are_the_worst_over_all_combinations_required_whatever_their_order() {
         params.combinations.insert(name.into(), cases);
     }
     let one = |quantity, combination: &str| {
-        let (max, min) = if quantity == Quantity::BucklingFactor { (None, Some(1.5)) } else { (Some(0.5), None) };
+        let (max, min) =
+            if quantity == Quantity::BucklingFactor { (None, Some(1.5)) } else { (Some(0.5), None) };
         RequirementParams { quantity, combination: combination.into(), max, min }
     };
     let quantities = [Quantity::Utilisation, Quantity::Deflection, Quantity::BucklingFactor];
@@ -269,7 +270,8 @@ fn metrics_are_the_worst_over_all_combinations_required_whatever_their_order() {
         );
     }
     // A quantity that no requirement names follows its family.
-    params.requirements = vec![one(Quantity::UtilisationAll, "light"), one(Quantity::UtilisationAll, "heavy")];
+    params.requirements =
+        vec![one(Quantity::UtilisationAll, "light"), one(Quantity::UtilisationAll, "heavy")];
     let response = analyse(&pattern, &params).unwrap();
     assert_eq!((response.utilisation, response.governing.utilisation.as_str()), (heavy.utilisation, "heavy"));
     let detailed = analyse_detailed(&pattern, &params, Proof::None).unwrap();

@@ -159,7 +159,11 @@ fn portal_on_hinges_sways() {
         let x: f64 = 0.5 * (low + high);
         if x * x.tan() < 6.0 * h / b { low = x } else { high = x }
     }
-    close(answer(parts, Order::First, 1).unwrap().buckling_factors[0], low * low * E * WEAK / (h * h * p), 1e-6);
+    close(
+        answer(parts, Order::First, 1).unwrap().buckling_factors[0],
+        low * low * E * WEAK / (h * h * p),
+        1e-6,
+    );
 }
 
 /// A column clamped at both ends, just below and just above its Euler load 4π²EI/L².

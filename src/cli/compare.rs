@@ -125,7 +125,8 @@ impl Comparison {
                 (0..METRICS.len())
                     .map(|m| Cell::from(self.value(entry, m).map(|value| number(value, self.largest(m))))),
             );
-            cells.extend((0..GOVERNING.len()).map(|i| governing_in(entry, i).map_or(Cell::Empty, Cell::from)));
+            cells
+                .extend((0..GOVERNING.len()).map(|i| governing_in(entry, i).map_or(Cell::Empty, Cell::from)));
             cells.push(evaluation.reason.clone().into());
             table.rows.push(cells);
         }

@@ -93,7 +93,8 @@ impl<'a> Analysed<'a> {
             results.combinations.iter().filter(|c| results.enveloped.contains(&c.name)).collect();
         (0..results.model.frame.members().len())
             .filter_map(|m| {
-                let used = enveloped.iter().map(|c| (self.utilisation(&c.member_utilisation[m]), c.name.as_str()));
+                let used =
+                    enveloped.iter().map(|c| (self.utilisation(&c.member_utilisation[m]), c.name.as_str()));
                 // Of equal ones the first by name, as for the whole.
                 used.reduce(|worst, next| if next.0 > worst.0 { next } else { worst })
             })

@@ -72,7 +72,9 @@ impl Columns {
         cells.extend((0..self.objectives.len()).map(|i| self.objective(row, i).into()));
         cells.extend(self.others().map(|(metric, _)| Cell::from(row.metrics.get(metric))));
         let governing = |i: usize| row.governing.get(i).filter(|name| !name.is_empty());
-        cells.extend((0..GOVERNING.len()).map(|i| governing(i).map_or(Cell::Empty, |name| Cell::from(&**name))));
+        cells.extend(
+            (0..GOVERNING.len()).map(|i| governing(i).map_or(Cell::Empty, |name| Cell::from(&**name))),
+        );
         cells
     }
 

@@ -117,7 +117,11 @@ struct FileSupport {
 }
 
 #[derive(Deserialize, Default)]
-#[serde(default, deny_unknown_fields, expecting = "an object with the keys nodal, member_uniform and gravity, or some of them")]
+#[serde(
+    default,
+    deny_unknown_fields,
+    expecting = "an object with the keys nodal, member_uniform and gravity, or some of them"
+)]
 struct FileLoads {
     nodal: Vec<FileNodal>,
     member_uniform: Vec<FileUniform>,

@@ -2,7 +2,7 @@
 
 use super::element::{self, EndActions, Ends};
 use super::section::Section;
-use super::solver::Solver;
+use super::solver::{Refined, Solver};
 use nalgebra::Vector3;
 
 /// Stress resultants on the cut face whose outward normal is local +x, local axes (N, Nm); N > 0 is tension.
@@ -20,6 +20,21 @@ pub struct Resultants {
     pub my: f64,
     /// Bending moment about z.
     pub mz: f64,
+}
+
+impl std::ops::Add for Resultants {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            n: self.n + other.n,
+            vy: self.vy + other.vy,
+            vz: self.vz + other.vz,
+            mt: self.mt + other.mt,
+            my: self.my + other.my,
+            mz: self.mz + other.mz,
+        }
+    }
 }
 
 /// Resultants at the two ends of a member, and the uniform load between (local axes, N/m).
@@ -59,6 +74,23 @@ impl Solver<'_> {
     ) -> Vec<MemberForces> {
         (0..self.model().members().len())
             .map(|m| self.forces_of(m, u, axial.map(|a| a[m]), &member_loads[m]))
+            .collect()
+    }
+
+    /// The same of displacements in two parts.
+    pub fn member_forces_of(
+        &self,
+        found: &Refined,
+        axial: Option<&[f64]>,
+        member_loads: &[Vector3<f64>],
+    ) -> Vec<MemberForces> {
+        let none = Vector3::zeros();
+        let members = self.member_forces(&found.u, axial, member_loads).into_iter().enumerate();
+        members
+            .map(|(m, forces)| {
+                let rest = self.forces_of(m, &found.rest, axial.map(|a| a[m]), &none);
+                MemberForces { start: forces.start + rest.start, end: forces.end + rest.end, ..forces }
+            })
             .collect()
     }
 

@@ -5,7 +5,7 @@ use super::forces::{MemberForces, Utilisation};
 use super::mechanism::{self, FreeMotion};
 use super::model::{FrameModel, MemberId, NodeId};
 use super::second_order::{LeastStep, Lost, Reason};
-use super::solver::{Combination, Solver, Unsound};
+use super::solver::{Combination, Refined, Solver, Unsound};
 use super::system::{DOFS, System, TooLarge};
 use nalgebra::Vector3;
 
@@ -130,18 +130,18 @@ pub fn frame(model: &FrameModel, analysis: &FrameAnalysis) -> Result<FrameResult
     let mut f = vec![0.0; solver.system().unknowns()];
     solver.load_vector(&combination, &loads, &mut f);
     let first = solver.first_order(&f);
-    finite(&first)?;
+    finite(&first.u)?;
     balanced(solver.imbalance(&first, None, &f))?;
     let mut axial = Vec::new();
-    solver.axial_forces(&first, &mut axial);
-    silence(&solver, &first, &mut axial);
+    solver.axial_forces_of(&first, &mut axial);
+    silence(&solver, &first.u, &mut axial);
     let buckling_factors = buckling::factors(&mut solver, &axial, analysis.buckling_modes)?;
     let result = if analysis.order == Order::Second {
         let u = solver
             .second_order(&f, &axial, SECOND_ORDER_TOLERANCE, LEAST_STEP)
             .map_err(|lost| unstable(&mut solver, &axial, lost))?;
-        finite(&u)?;
-        solver.axial_forces(&u, &mut axial);
+        finite(&u.u)?;
+        solver.axial_forces_of(&u, &mut axial);
         balanced(solver.imbalance(&u, Some(&axial), &f))?;
         collect(&solver, &u, Some(&axial), &loads, &f)
     } else {
@@ -190,13 +190,13 @@ fn unstable(solver: &mut Solver<'_>, axial: &[f64], lost: Lost) -> FrameError {
 
 fn collect(
     solver: &Solver<'_>,
-    u: &[f64],
+    found: &Refined,
     axial: Option<&[f64]>,
     loads: &[Vector3<f64>],
     f: &[f64],
 ) -> FrameResult {
     let model = solver.model();
-    let displacements = by_node(solver.system(), u, model.nodes().len());
+    let displacements = by_node(solver.system(), &found.u, model.nodes().len());
     let size = |d: &[f64; 6]| Vector3::new(d[0], d[1], d[2]).norm();
     let mut largest = (0.0, NodeId(0));
     for (n, d) in displacements.iter().enumerate() {
@@ -204,7 +204,8 @@ fn collect(
             largest = (size(d), NodeId(n as u32));
         }
     }
-    let pushes = by_node(solver.system(), &solver.reactions(u, axial, f), model.nodes().len());
+    let reactions: Vec<f64> = solver.residual(found, axial, f).into_iter().map(|left| -left).collect();
+    let pushes = by_node(solver.system(), &reactions, model.nodes().len());
     let reactions: Vec<(NodeId, [Option<f64>; 6])> = model
         .supported()
         .map(|node| {
@@ -218,7 +219,7 @@ fn collect(
             *total += push.unwrap_or(0.0);
         }
     }
-    let member_forces = solver.member_forces(u, axial, loads);
+    let member_forces = solver.member_forces_of(found, axial, loads);
     let [bending, axial_energy] = energies(solver, &member_forces);
     let bending_dominates = bending > axial_energy;
     let strength = model.material().strength;
@@ -256,7 +257,8 @@ fn energies(solver: &Solver<'_>, forces: &[MemberForces]) -> [f64; 2] {
         for (x, weight) in [(0.0, 1.0), (0.5, 4.0), (1.0, 1.0)] {
             let at = forces.at(x * forces.length);
             let share = weight * forces.length / (6.0 * e);
-            let bent = |moment: f64, inertia: f64| if inertia > 0.0 { moment * moment / inertia } else { 0.0 };
+            let bent =
+                |moment: f64, inertia: f64| if inertia > 0.0 { moment * moment / inertia } else { 0.0 };
             sum[0] += share * (bent(at.my, section.iy) + bent(at.mz, section.iz));
             sum[1] += share * at.n * at.n / section.area;
         }

@@ -12,7 +12,7 @@
 //! That an iteration settles does not prove that K + Kg is positive definite: motions that the load does not excite
 //! are not seen. Whether it is, is for a Cholesky factorisation of K + Kg at the settled N to tell.
 
-use super::solver::Solver;
+use super::solver::{Refined, Solver};
 
 /// Why there is no answer in second order.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -58,7 +58,7 @@ const SHRINKS: f64 = 0.5;
 
 /// A state of equilibrium.
 struct State {
-    u: Vec<f64>,
+    found: Refined,
     axial: Vec<f64>,
 }
 
@@ -183,9 +183,9 @@ impl Solver<'_> {
         first: &[f64],
         tolerance: f64,
         least: LeastStep,
-    ) -> Result<Vec<f64>, Lost> {
+    ) -> Result<Refined, Lost> {
         match self.equilibrium(f, first.to_vec(), tolerance, MOST_AT_ONCE) {
-            Ok(state) => Ok(state.u),
+            Ok(state) => Ok(state.found),
             Err(_) => self.follow(f, first, tolerance, least),
         }
     }
@@ -205,24 +205,30 @@ impl Solver<'_> {
             self.factorise_shifted(&axial, 1.0).map_err(|_| Reason::PastCritical)?;
             let mut u = f.to_vec();
             self.solve_as_factorised(&mut u);
-            let mut residual = f.to_vec();
-            self.subtract_forces(&u, Some(&axial), &mut residual);
-            self.solve_as_factorised(&mut residual);
-            for (u, correction) in u.iter_mut().zip(&residual) {
-                *u += correction;
-            }
-            self.axial_forces(&u, &mut next);
+            let found = Refined { rest: vec![0.0; u.len()], u };
+            let mut correction = self.residual(&found, Some(&axial), f);
+            self.solve_as_factorised(&mut correction);
+            let found = found.plus(&correction);
+            self.axial_forces_of(&found, &mut next);
             let largest = next.iter().fold(0.0f64, |a, n| a.max(n.abs()));
             let change = next.iter().zip(&axial).fold(0.0f64, |a, (n, o)| a.max((n - o).abs()));
             let settled = change <= tolerance * largest
                 || (change > SHRINKS * change_before
-                    && before.as_ref().is_some_and(|before| self.is_same(&u, before, tolerance.max(ENERGY))));
+                    && before
+                        .as_ref()
+                        .is_some_and(|before| self.is_same(&found.u, before, tolerance.max(ENERGY))));
             if settled {
                 self.factorise_shifted(&next, 1.0).map_err(|_| Reason::PastCritical)?;
-                return Ok(State { u, axial: next });
+                let mut correction = self.residual(&found, Some(&next), f);
+                self.solve_as_factorised(&mut correction);
+                // As long as it is one of rounding; else N has changed with it.
+                let refined = found.plus(&correction);
+                let found =
+                    if self.is_same(&refined.u, &found.u, tolerance.max(ENERGY)) { refined } else { found };
+                return Ok(State { found, axial: next });
             }
             secant.step(&mut axial, &next, step >= PLAIN);
-            (before, change_before) = (Some(u), change);
+            (before, change_before) = (Some(found.u), change);
         }
         Err(Reason::NoConvergence)
     }
@@ -240,7 +246,7 @@ impl Solver<'_> {
         first: &[f64],
         tolerance: f64,
         LeastStep(least): LeastStep,
-    ) -> Result<Vec<f64>, Lost> {
+    ) -> Result<Refined, Lost> {
         let scaled = |share: f64, v: &[f64]| v.iter().map(|v| share * v).collect::<Vec<f64>>();
         let mut share = 0.0;
         let mut axial = vec![0.0; first.len()];
@@ -253,7 +259,7 @@ impl Solver<'_> {
             let (tolerance, most) =
                 if next == 1.0 { (tolerance, MOST_AT_ONCE) } else { (ON_THE_WAY, MOST_IN_STEP) };
             match self.equilibrium(&scaled(next, f), guess, tolerance, most) {
-                Ok(state) if next == 1.0 => return Ok(state.u),
+                Ok(state) if next == 1.0 => return Ok(state.found),
                 Ok(state) => {
                     let taken = next - share;
                     growth = state.axial.iter().zip(&axial).map(|(n, o)| (n - o) / taken).collect();

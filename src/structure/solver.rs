@@ -36,6 +36,26 @@ pub struct Solver<'m> {
     factored: Factored,
 }
 
+/// Displacements in two parts, of which the second is what rounding leaves out of the first. Where elements are short
+/// and stiff, the last digit of a displacement is a large force: forces are those of both.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Refined {
+    /// The displacements, in elimination order.
+    pub u: Vec<f64>,
+    /// What is left out of them.
+    pub rest: Vec<f64>,
+}
+
+impl Refined {
+    /// The sum with a correction.
+    pub fn plus(&self, correction: &[f64]) -> Self {
+        let small: Vec<f64> = self.rest.iter().zip(correction).map(|(rest, c)| rest + c).collect();
+        let u: Vec<f64> = self.u.iter().zip(&small).map(|(u, s)| u + s).collect();
+        let rest = self.u.iter().zip(&u).zip(&small).map(|((old, new), s)| s - (new - old)).collect();
+        Self { u, rest }
+    }
+}
+
 /// What the factor is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Factored {
@@ -235,33 +255,43 @@ impl<'m> Solver<'m> {
         self.factor.solve(&self.system, rhs);
     }
 
-    /// First order: K u = f, refined with the residual of the elements' own end forces: once for a sound model, a few
-    /// times more for a badly scaled one.
-    pub fn first_order(&mut self, f: &[f64]) -> Vec<f64> {
-        const MOST: usize = 6;
+    /// First order: K u = f, refined with the residual of the elements' own end forces: once for a sound model, more
+    /// often for a badly scaled one, until the nodes are in balance or come no nearer to it.
+    pub fn first_order(&mut self, f: &[f64]) -> Refined {
+        const MOST: usize = 12;
         const SMALL: f64 = 1e-10;
         let mut u = f.to_vec();
         self.solve(&mut u);
-        let mut residual = Vec::new();
+        let mut found = Refined { rest: vec![0.0; u.len()], u };
+        let mut imbalance = f64::INFINITY;
         for _ in 0..MOST {
-            residual.clear();
-            residual.extend_from_slice(f);
-            self.subtract_forces(&u, None, &mut residual);
-            self.solve(&mut residual);
-            u.iter_mut().zip(&residual).for_each(|(u, correction)| *u += correction);
-            let largest = |v: &[f64]| v.iter().fold(0.0f64, |a, v| a.max(v.abs()));
-            if largest(&residual) <= SMALL * largest(&u) {
+            let mut correction = self.residual(&found, None, f);
+            self.solve(&mut correction);
+            let better = found.plus(&correction);
+            let left = self.imbalance(&better, None, f);
+            if left >= imbalance {
+                break;
+            }
+            (found, imbalance) = (better, left);
+            if left <= SMALL {
                 break;
             }
         }
-        u
+        found
+    }
+
+    /// f − (K + Kg(N)) u.
+    pub fn residual(&self, found: &Refined, axial: Option<&[f64]>, f: &[f64]) -> Vec<f64> {
+        let mut left = f.to_vec();
+        self.subtract_forces(&found.u, axial, &mut left);
+        self.subtract_forces(&found.rest, axial, &mut left);
+        left
     }
 
     /// How far the free nodes are from equilibrium: the largest force left over, relative to the largest force on a
     /// node, and the same for moments; the worse of the two.
-    pub fn imbalance(&self, u: &[f64], axial: Option<&[f64]>, f: &[f64]) -> f64 {
-        let mut left = f.to_vec();
-        self.subtract_forces(u, axial, &mut left);
+    pub fn imbalance(&self, found: &Refined, axial: Option<&[f64]>, f: &[f64]) -> f64 {
+        let left = self.residual(found, axial, f);
         let mut worst = [0.0f64; 2];
         let mut scale = [0.0f64; 2];
         for (i, (left, f)) in left.iter().zip(f).enumerate() {
@@ -318,6 +348,14 @@ impl<'m> Solver<'m> {
             let stretch = Vector3::new(u[e] - u[s], u[e + 1] - u[s + 1], u[e + 2] - u[s + 2]);
             k.axial * axes.x.dot(&stretch)
         }));
+    }
+
+    /// The same of displacements in two parts.
+    pub fn axial_forces_of(&self, found: &Refined, axial: &mut Vec<f64>) {
+        let mut rest = Vec::new();
+        self.axial_forces(&found.u, axial);
+        self.axial_forces(&found.rest, &mut rest);
+        axial.iter_mut().zip(&rest).for_each(|(n, rest)| *n += rest);
     }
 
     /// y = −Kg(N) x, for several columns, without a matrix.

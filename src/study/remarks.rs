@@ -20,9 +20,9 @@ impl Study {
             self.vast_surface(),
             self.long_members(),
         ]
-            .into_iter()
-            .flatten()
-            .collect()
+        .into_iter()
+        .flatten()
+        .collect()
     }
 
     /// Directions that no support holds.

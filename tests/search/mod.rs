@@ -100,7 +100,14 @@ impl Problem for Counting {
             _ => {}
         }
         if let Some((violation, reason)) = identity.rejected {
-            return Evaluation { violation, reason, objectives: vec![], metrics: vec![], governing: vec![], structural: false };
+            return Evaluation {
+                violation,
+                reason,
+                objectives: vec![],
+                metrics: vec![],
+                governing: vec![],
+                structural: false,
+            };
         }
         let all = [
             (t - 6.0).powi(2) + 0.3 * p + 0.1 * a,

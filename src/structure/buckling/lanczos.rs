@@ -5,15 +5,17 @@
 
 use super::super::columns::Columns;
 use super::super::solver::Solver;
-use super::{Found, Mode, NOTHING, NoConvergence, Search};
+use super::{BELIEVED, Found, Mode, NOTHING, NoConvergence, Search};
 use crate::random;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-const RESTARTS: usize = 40;
-/// Restarts after which the tolerance is eased tenfold, up to [`EASED`]: a stiffness whose digits are used up by its
-/// own spread (bending 1e-11 of axial) cannot give a smaller residual.
-const EASE_EVERY: usize = 6;
-const EASED: f64 = 1e-4;
+/// Restarts after which the factors are counted instead.
+const RESTARTS: usize = 12;
+/// Restarts after which what is believed is enough: a stiffness whose digits are used up by its own spread (bending
+/// 1e-11 of axial) cannot give a smaller residual.
+const EASED_AFTER: usize = 6;
+/// Ritz values that differ by less than this share are one repeated factor.
+const REPEATED: f64 = 1e-9;
 /// Share of a squared norm left by orthogonalisation, below which it is done again.
 const CANCELLED: f64 = 1e-3;
 /// Orthogonality fades only as Ritz vectors settle (Paige 1971): to rounding over the residual. While no residual is
@@ -70,8 +72,7 @@ impl<'a, 'm> Lanczos<'a, 'm> {
         let (mut x, mut mx) = self.random_block();
         let asked = self.search.tolerance;
         for restart in 0..RESTARTS {
-            let eased = asked * 10f64.powi((restart / EASE_EVERY) as i32);
-            self.search.tolerance = eased.min(EASED).max(asked);
+            self.search.tolerance = if restart < EASED_AFTER { asked } else { asked.max(BELIEVED) };
             while self.v.count() + x.count() <= self.most {
                 let (z, g, remainder) = self.extend(x, mx);
                 let ritz = self.ritz();
@@ -88,7 +89,9 @@ impl<'a, 'm> Lanczos<'a, 'm> {
                     }
                 }
             }
-            self.restart();
+            if self.restart() {
+                break;
+            }
         }
         Err(NoConvergence)
     }
@@ -186,15 +189,20 @@ impl<'a, 'm> Lanczos<'a, 'm> {
         Found { modes: (0..wanted).map(mode).collect(), largest, tolerance: self.search.tolerance }
     }
 
-    /// Keeps the best Ritz vectors.
-    fn restart(&mut self) {
+    /// Keeps the best Ritz vectors. Whether going on is in vain: a factor repeated as often as the block has columns, or
+    /// more often, is wanted, and no more of it would be seen.
+    fn restart(&mut self) -> bool {
         self.local = false;
         let ritz = self.ritz();
+        let wanted = &ritz.values[..self.search.modes.min(ritz.values.len())];
+        let repeated = |run: &[f64]| run[0] - run[run.len() - 1] <= REPEATED * run[0].abs();
+        let in_vain = wanted.windows(self.block).any(repeated);
         let keep = (self.most / 3).max(self.search.modes + 2).min(self.v.count());
         let s = ritz.vectors.columns(0, keep).into_owned();
         self.v = self.v.times(&s);
         self.w = self.w.times(&s);
         self.t = DMatrix::from_diagonal(&DVector::from_column_slice(&ritz.values[..keep]));
+        in_vain
     }
 }
 

@@ -53,8 +53,10 @@ const NOTHING: f64 = 1e-10;
 /// Residual of the modes of [`factors`], and what may have been reached instead to be believed.
 const FINE: f64 = 1e-8;
 const BELIEVED: f64 = 1e-7;
-/// How far below a factor, in residuals, the count is taken: factors nearer than that are one.
+/// How far below the first factor, in residuals, none may lie.
 const BELOW: f64 = 4.0;
+/// How far below the last of several factors, beside it, is counted: factors nearer than that are one.
+const SAME: f64 = 2e-9;
 
 /// The first mode, whose factor no other lies below; none if no load of this direction buckles the structure.
 ///
@@ -63,11 +65,7 @@ const BELOW: f64 = 4.0;
 ///
 /// # Errors
 /// [`NoConvergence`].
-pub fn first(
-    solver: &mut Solver<'_>,
-    axial: &[f64],
-    tolerance: f64,
-) -> Result<Option<Mode>, NoConvergence> {
+pub fn first(solver: &mut Solver<'_>, axial: &[f64], tolerance: f64) -> Result<Option<Mode>, NoConvergence> {
     let Some(found) = iterate(solver, axial, Search { modes: 1, tolerance }) else { return Ok(None) };
     if let Ok(Found { modes, largest, tolerance: reached }) = &found {
         let below = match modes.first() {
@@ -88,13 +86,15 @@ pub fn first(
 pub fn factors(solver: &mut Solver<'_>, axial: &[f64], count: usize) -> Result<Vec<f64>, NoConvergence> {
     let free = solver.system().held().iter().filter(|h| !**h).count();
     let modes = count.min(free);
-    let Some(found) = iterate(solver, axial, Search { modes, tolerance: FINE }) else { return Ok(Vec::new()) };
+    let Some(found) = iterate(solver, axial, Search { modes, tolerance: FINE }) else {
+        return Ok(Vec::new());
+    };
     let known = hints(&found);
     if let Ok(found) = &found
         && found.tolerance <= BELIEVED
     {
         let below = match known.last() {
-            Some(last) if known.len() == modes => last * (1.0 - BELOW * found.tolerance.max(FINE)),
+            Some(last) if known.len() == modes => last * (1.0 - SAME),
             _ => sturm::FAR / found.largest,
         };
         let there = known.iter().filter(|factor| **factor < below).count();
@@ -111,11 +111,7 @@ fn hints(found: &Result<Found, NoConvergence>) -> Vec<f64> {
 }
 
 /// The iteration that suits the size; none where there is nothing to find.
-fn iterate(
-    solver: &mut Solver<'_>,
-    axial: &[f64],
-    search: Search,
-) -> Option<Result<Found, NoConvergence>> {
+fn iterate(solver: &mut Solver<'_>, axial: &[f64], search: Search) -> Option<Result<Found, NoConvergence>> {
     if search.modes == 0 || axial.iter().all(|&n| n == 0.0) {
         return None;
     }

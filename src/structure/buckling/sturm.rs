@@ -5,15 +5,13 @@
 //! an iteration has failed or has missed something.
 
 use super::super::solver::Solver;
-use super::{Mode, NoConvergence};
+use super::{Mode, NoConvergence, SAME};
 use crate::random;
 
 /// Width of the bracket, beside the factor, at which it is known.
 const WIDTH: f64 = 1e-10;
-/// Distance from a guess, beside it, at which is counted first.
-const CLOSE: f64 = 2e-9;
-/// Times the least |λ|, of either sign, beyond which a factor is rounding.
-pub const FAR: f64 = 1e10;
+/// Times the least |λ|, of either sign, beyond which is not looked for factors: they are of no use, and soon rounding.
+pub const FAR: f64 = 1e8;
 /// Steps of the inverse iteration for a shape, and the change of 1/λ at which it ends.
 const STEPS: usize = 60;
 const SETTLED: f64 = 1e-8;
@@ -82,8 +80,8 @@ pub fn factors(
     for hint in hints {
         // A repeated one is counted once.
         if counts.known.last().is_none_or(|known| *hint > known.0) {
-            counts.at(hint * (1.0 - CLOSE))?;
-            counts.at(hint * (1.0 + CLOSE))?;
+            counts.at(hint * (1.0 - SAME))?;
+            counts.at(hint * (1.0 + SAME))?;
         }
     }
     let mut found = Vec::new();
@@ -99,19 +97,14 @@ pub fn factors(
 ///
 /// # Errors
 /// [`NoConvergence`] if a pivot is not a number.
-pub fn first(
-    solver: &mut Solver<'_>,
-    axial: &[f64],
-    hints: &[f64],
-) -> Result<Option<Mode>, NoConvergence> {
+pub fn first(solver: &mut Solver<'_>, axial: &[f64], hints: &[f64]) -> Result<Option<Mode>, NoConvergence> {
     let Some(&factor) = factors(solver, axial, 1, hints)?.first() else { return Ok(None) };
     // With a factor of K + s Kg just below, the mode and those as good as equal to it grow far beyond all others.
     let below = [1e-9, 1e-7, 1e-5, 1e-3].into_iter().find(|d| solver.is_definite(axial, factor * (1.0 - d)));
     let below = below.ok_or(NoConvergence)?;
     solver.factorise_shifted(axial, factor * (1.0 - below)).map_err(|_| NoConvergence)?;
     let mut rng = random::stream(0x7374_7572, 0, 0);
-    let mut shape: Vec<f64> =
-        (0..solver.system().unknowns()).map(|_| random::unit(&mut rng) - 0.5).collect();
+    let mut shape: Vec<f64> = (0..solver.system().unknowns()).map(|_| random::unit(&mut rng) - 0.5).collect();
     solver.solve_as_factorised(&mut shape);
     let (mut image, mut before) = (vec![0.0; shape.len()], 0.0f64);
     for _ in 0..STEPS {

@@ -61,9 +61,7 @@ fn used_at(evaluator: &mut Evaluator<'_>, height: f64, all: bool) -> Result<Poin
         Ok(None)
         | Err(
             AnalysisError::Mechanism(_) | AnalysisError::NoConvergence(_) | AnalysisError::IllConditioned,
-        ) => {
-            Ok(Point { height, shares: None })
-        }
+        ) => Ok(Point { height, shares: None }),
         Err(other) => Err(other),
     }
 }
