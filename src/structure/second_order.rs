@@ -13,6 +13,7 @@
 //! are not seen. Whether it is, is for a Cholesky factorisation of K + Kg at the settled N to tell.
 
 use super::solver::{Refined, Solver};
+use nalgebra::{DMatrix, DVector};
 
 /// Why there is no answer in second order.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -38,15 +39,17 @@ pub struct Lost {
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct LeastStep(pub f64);
 
-/// Where the path ends, K + Kg with Kg this many least steps further must be indefinite, or the axial forces must grow
-/// this many times faster than at first, for the structure to be called unstable.
+/// Where the path ends, K + Kg with Kg this many steps further must be indefinite, or the displacements must grow this
+/// many times faster than at first, for the structure to be called unstable.
 const BEYOND: f64 = 4.0;
 const FASTER: f64 = 8.0;
 /// Factorisations for one equilibrium: of the whole load at once, and of a step.
 const MOST_AT_ONCE: usize = 100;
 const MOST_IN_STEP: usize = 40;
-/// Of these, the plain ones; then each is corrected by the one before (Anderson 1965, depth 1).
-const PLAIN: usize = 8;
+/// Steps of the iteration by which the next is corrected, and the share of the largest singular value below which they
+/// count as dependent.
+const DEPTH: usize = 5;
+const INDEPENDENT: f64 = 1e-10;
 /// Tolerance of the states in between.
 const ON_THE_WAY: f64 = 1e-6;
 /// Change of the displacements in the norm of strain energy, beside the whole, that is as good as none. Unlike that of
@@ -200,8 +203,8 @@ impl Solver<'_> {
     ) -> Result<State, Reason> {
         let mut next = Vec::new();
         let (mut before, mut change_before): (Option<Vec<f64>>, f64) = (None, f64::INFINITY);
-        let mut secant = Secant::default();
-        for step in 0..most {
+        let mut mixing = Mixing::default();
+        for _ in 0..most {
             self.factorise_shifted(&axial, 1.0).map_err(|_| Reason::PastCritical)?;
             let mut u = f.to_vec();
             self.solve_as_factorised(&mut u);
@@ -227,7 +230,7 @@ impl Solver<'_> {
                     if self.is_same(&refined.u, &found.u, tolerance.max(ENERGY)) { refined } else { found };
                 return Ok(State { found, axial: next });
             }
-            secant.step(&mut axial, &next, step >= PLAIN);
+            mixing.step(&mut axial, &next);
             (before, change_before) = (Some(found.u), change);
         }
         Err(Reason::NoConvergence)
@@ -248,8 +251,12 @@ impl Solver<'_> {
         LeastStep(least): LeastStep,
     ) -> Result<Refined, Lost> {
         let scaled = |share: f64, v: &[f64]| v.iter().map(|v| share * v).collect::<Vec<f64>>();
+        let largest = |v: &[f64]| v.iter().fold(0.0f64, |a, v| a.max(v.abs()));
         let mut share = 0.0;
         let mut axial = vec![0.0; first.len()];
+        let mut u = vec![0.0; f.len()];
+        // How fast the displacements grow with the share: at first, and in the last step.
+        let (mut slow, mut fast) = (0.0, 0.0);
         // How N grows with the share: at first as in first order, then as in the step before.
         let mut growth = first.to_vec();
         let mut step = 0.5f64;
@@ -262,57 +269,64 @@ impl Solver<'_> {
                 Ok(state) if next == 1.0 => return Ok(state.found),
                 Ok(state) => {
                     let taken = next - share;
+                    let moved: Vec<f64> = state.found.u.iter().zip(&u).map(|(u, old)| u - old).collect();
+                    fast = largest(&moved) / taken;
+                    slow = if share == 0.0 { fast } else { slow };
+                    u = state.found.u;
                     growth = state.axial.iter().zip(&axial).map(|(n, o)| (n - o) / taken).collect();
                     (share, axial) = (next, state.axial);
                     step = (1.5 * taken).min(1.0 - share);
                 }
                 Err(_) if step > least => step *= 0.5,
                 Err(_) => {
-                    let reason = self.reason(share, &axial, &growth, first, step);
+                    // At a limit point they grow without bounds, at a bifurcation K + Kg loses its definiteness.
+                    let ahead: Vec<f64> =
+                        axial.iter().zip(&growth).map(|(n, g)| n + BEYOND * step * g).collect();
+                    let gives_way = share == 0.0 || fast > FASTER * slow || !self.is_definite(&ahead, 1.0);
+                    let reason = if gives_way { Reason::PastCritical } else { Reason::NoConvergence };
                     return Err(Lost { reason, share, axial });
                 }
             }
         }
     }
-
-    /// Why no step leads beyond the state at a share of the load.
-    fn reason(&mut self, share: f64, axial: &[f64], growth: &[f64], first: &[f64], step: f64) -> Reason {
-        let largest = |v: &[f64]| v.iter().fold(0.0f64, |a, v| a.max(v.abs()));
-        // At a limit point N grows without bounds, at a bifurcation K + Kg loses its definiteness.
-        let ahead: Vec<f64> = axial.iter().zip(growth).map(|(n, g)| n + BEYOND * step * g).collect();
-        if share == 0.0 || largest(growth) > FASTER * largest(first) || !self.is_definite(&ahead, 1.0) {
-            Reason::PastCritical
-        } else {
-            Reason::NoConvergence
-        }
-    }
 }
 
-/// The last step of an iteration N ← g(N).
+/// The last steps of an iteration N ← g(N), oldest first.
 #[derive(Default)]
-struct Secant {
+struct Mixing {
     /// g(N) and g(N) − N.
-    before: Option<(Vec<f64>, Vec<f64>)>,
+    steps: Vec<(DVector<f64>, DVector<f64>)>,
 }
 
-impl Secant {
-    /// N ← g(N), `image`; corrected so that the change, if g were linear along the last step, would be least.
-    fn step(&mut self, axial: &mut Vec<f64>, image: &[f64], correct: bool) {
-        let change: Vec<f64> = image.iter().zip(axial.iter()).map(|(g, n)| g - n).collect();
-        axial.clear();
-        axial.extend_from_slice(image);
-        if let (true, Some((image_before, change_before))) = (correct, &self.before) {
-            let (mut product, mut square) = (0.0, 0.0);
-            for (now, before) in change.iter().zip(change_before) {
-                product += now * (now - before);
-                square += (now - before) * (now - before);
-            }
-            let theta = if square > 0.0 { product / square } else { 0.0 };
-            for ((n, now), before) in axial.iter_mut().zip(image).zip(image_before) {
-                *n -= theta * (now - before);
+impl Mixing {
+    /// N ← g(N), `image`; corrected so that the change, if g were linear, would be least (Anderson 1965): as Newton's
+    /// method would, which for this g is not symmetric.
+    fn step(&mut self, axial: &mut Vec<f64>, image: &[f64]) {
+        let image = DVector::from_column_slice(image);
+        let change = &image - DVector::from_column_slice(axial);
+        self.steps.push((image, change));
+        if self.steps.len() > DEPTH + 1 {
+            self.steps.remove(0);
+        }
+        let last = self.steps.len() - 1;
+        let (image, change) = &self.steps[last];
+        let differences: Vec<DVector<f64>> = self.steps.windows(2).map(|w| &w[1].1 - &w[0].1).collect();
+        // Scaled to unit length, so that old steps, which were longer, do not drown the new ones.
+        let sizes: Vec<f64> = differences.iter().map(|d| d.norm().max(f64::MIN_POSITIVE)).collect();
+        let product = |i: usize, j: usize| differences[i].dot(&differences[j]) / (sizes[i] * sizes[j]);
+        let right = DVector::from_fn(last, |i, _| differences[i].dot(change) / sizes[i]);
+        let products = DMatrix::from_fn(last, last, product);
+        let mut next = image.clone();
+        if last > 0
+            && products.iter().chain(&right).all(|v| v.is_finite())
+            && let Ok(inverse) = products.pseudo_inverse(INDEPENDENT)
+        {
+            for (i, share) in (inverse * right).iter().enumerate() {
+                next -= (&self.steps[i + 1].0 - &self.steps[i].0) * (share / sizes[i]);
             }
         }
-        self.before = Some((image.to_vec(), change));
+        axial.clear();
+        axial.extend_from_slice(next.as_slice());
     }
 }
 
