@@ -107,6 +107,7 @@ impl From<Unsound> for FrameError {
         match reason {
             Unsound::Mechanism(motion) => Self::Singular(motion),
             Unsound::IllConditioned => Self::NoDigits,
+            Unsound::NotFinite => Self::NotFinite,
         }
     }
 }
@@ -163,11 +164,16 @@ fn balanced(imbalance: f64) -> Result<(), FrameError> {
     if imbalance <= BALANCE { Ok(()) } else { Err(FrameError::IllConditioned(imbalance)) }
 }
 
-/// Sets to zero the axial forces that are rounding noise of the displacements: no force, no buckling.
+/// Sets to zero the axial forces that are rounding noise of the displacements and rotations: no force, no buckling.
 pub fn silence(solver: &Solver<'_>, u: &[f64], axial: &mut [f64]) {
-    for ((slot, k), n) in solver.system().slots().iter().zip(solver.stiffness()).zip(axial) {
-        let size = |at: usize| u[at..at + 3].iter().fold(0.0f64, |a, v| a.max(v.abs()));
-        if n.abs() <= 256.0 * f64::EPSILON * k.axial * (size(slot.start) + size(slot.end)) {
+    let members = solver.system().slots().iter().zip(solver.stiffness()).zip(solver.model().axes());
+    for (((slot, k), axes), n) in members.zip(axial) {
+        let largest = |from: usize| u[from..from + 3].iter().fold(0.0f64, |a, v| a.max(v.abs()));
+        let moved = largest(slot.start) + largest(slot.end);
+        let turned = largest(slot.start + 3) + largest(slot.end + 3);
+        // What cancels in the equilibrium of its ends.
+        let by_turning = k.xy.couple + k.xz.couple + k.torsion / axes.length;
+        if n.abs() <= 256.0 * f64::EPSILON * (k.axial * moved + by_turning * turned) {
             *n = 0.0;
         }
     }

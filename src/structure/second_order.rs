@@ -46,6 +46,8 @@ const FASTER: f64 = 8.0;
 /// Factorisations for one equilibrium: of the whole load at once, and of a step.
 const MOST_AT_ONCE: usize = 100;
 const MOST_IN_STEP: usize = 40;
+/// Corrections of the displacements of one factorisation.
+const MOST_CORRECTIONS: usize = 4;
 /// Steps of the iteration by which the next is corrected, and the share of the largest singular value below which they
 /// count as dependent.
 const DEPTH: usize = 5;
@@ -209,12 +211,9 @@ impl Solver<'_> {
             let mut u = f.to_vec();
             self.solve_as_factorised(&mut u);
             let found = Refined { rest: vec![0.0; u.len()], u };
-            let mut correction = self.residual(&found, Some(&axial), f);
-            self.solve_as_factorised(&mut correction);
-            let found = found.plus(&correction);
-            self.axial_forces_of(&found, &mut next);
+            let found = self.refined(found, &axial, f, tolerance, &mut next);
             let largest = next.iter().fold(0.0f64, |a, n| a.max(n.abs()));
-            let change = next.iter().zip(&axial).fold(0.0f64, |a, (n, o)| a.max((n - o).abs()));
+            let change = largest_difference(&next, &axial);
             let settled = change <= tolerance * largest
                 || (change > SHRINKS * change_before
                     && before
@@ -234,6 +233,32 @@ impl Solver<'_> {
             (before, change_before) = (Some(found.u), change);
         }
         Err(Reason::NoConvergence)
+    }
+
+    /// Corrects displacements with the factor of K + Kg(N) at hand until their own axial forces, `next`, no longer change
+    /// beside the tolerance: close to the critical load, and where members are slender, once is not enough.
+    fn refined(
+        &mut self,
+        mut found: Refined,
+        axial: &[f64],
+        f: &[f64],
+        tolerance: f64,
+        next: &mut Vec<f64>,
+    ) -> Refined {
+        let mut before = Vec::new();
+        self.axial_forces_of(&found, next);
+        for _ in 0..MOST_CORRECTIONS {
+            let mut correction = self.residual(&found, Some(axial), f);
+            self.solve_as_factorised(&mut correction);
+            found = found.plus(&correction);
+            std::mem::swap(&mut before, next);
+            self.axial_forces_of(&found, next);
+            let largest = next.iter().fold(0.0f64, |a, n| a.max(n.abs()));
+            if largest_difference(next, &before) <= 0.1 * tolerance * largest {
+                break;
+            }
+        }
+        found
     }
 
     /// Whether two displacements differ by no more than a share of the first, in the norm of strain energy.
@@ -289,6 +314,10 @@ impl Solver<'_> {
             }
         }
     }
+}
+
+fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).fold(0.0, |largest, (a, b)| largest.max((a - b).abs()))
 }
 
 /// The last steps of an iteration N ← g(N), oldest first.

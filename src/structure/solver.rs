@@ -74,6 +74,8 @@ pub enum Unsound {
     Mechanism(FreeMotion),
     /// Nothing does, but rounding has used up all digits.
     IllConditioned,
+    /// The numbers overflow.
+    NotFinite,
 }
 
 impl<'m> Solver<'m> {
@@ -131,6 +133,9 @@ impl<'m> Solver<'m> {
         };
         if !suspicious {
             return Ok(());
+        }
+        if self.matrix.iter().any(|v| !v.is_finite()) {
+            return Err(Unsound::NotFinite);
         }
         if let Some(motion) = mechanism::rigid_motion(self.model, &self.system) {
             return Err(Unsound::Mechanism(motion));

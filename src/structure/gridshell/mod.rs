@@ -211,6 +211,7 @@ impl From<Unsound> for AnalysisError {
         match reason {
             Unsound::Mechanism(motion) => Self::Mechanism(motion),
             Unsound::IllConditioned => Self::IllConditioned,
+            Unsound::NotFinite => Self::NotFinite("the stiffness"),
         }
     }
 }
