@@ -22,21 +22,6 @@ pub struct Resultants {
     pub mz: f64,
 }
 
-impl std::ops::Add for Resultants {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self {
-            n: self.n + other.n,
-            vy: self.vy + other.vy,
-            vz: self.vz + other.vz,
-            mt: self.mt + other.mt,
-            my: self.my + other.my,
-            mz: self.mz + other.mz,
-        }
-    }
-}
-
 /// Resultants at the two ends of a member, and the uniform load between (local axes, N/m).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MemberForces {
@@ -84,12 +69,10 @@ impl Solver<'_> {
         axial: Option<&[f64]>,
         member_loads: &[Vector3<f64>],
     ) -> Vec<MemberForces> {
-        let none = Vector3::zeros();
-        let members = self.member_forces(&found.u, axial, member_loads).into_iter().enumerate();
+        let members = self.model().axes().iter().zip(self.system().slots()).enumerate();
         members
-            .map(|(m, forces)| {
-                let rest = self.forces_of(m, &found.rest, axial.map(|a| a[m]), &none);
-                MemberForces { start: forces.start + rest.start, end: forces.end + rest.end, ..forces }
+            .map(|(m, (axes, slot))| {
+                self.forces_at(m, &found.ends(slot, axes), axial.map(|a| a[m]), &member_loads[m])
             })
             .collect()
     }
@@ -98,10 +81,15 @@ impl Solver<'_> {
     pub fn forces_of(&self, m: usize, u: &[f64], axial: Option<f64>, q: &Vector3<f64>) -> MemberForces {
         let axes = &self.model().axes()[m];
         let slot = self.system().slots()[m];
-        let ends = Ends::read(u, slot.start, slot.end).local(axes);
-        let EndActions { mut force, mut m1, mut m2 } = self.stiffness()[m].apply_local(&ends);
+        self.forces_at(m, &Ends::read(u, slot.start, slot.end).local(axes), axial, q)
+    }
+
+    /// The same, given its ends in local axes.
+    fn forces_at(&self, m: usize, ends: &Ends, axial: Option<f64>, q: &Vector3<f64>) -> MemberForces {
+        let axes = &self.model().axes()[m];
+        let EndActions { mut force, mut m1, mut m2 } = self.stiffness()[m].apply_local(ends);
         if let Some(tension) = axial {
-            let g = element::geometric_actions(&Vector3::x(), axes.length, tension, &ends);
+            let g = element::geometric_actions(&Vector3::x(), axes.length, tension, ends);
             force += g.force;
             m1 += g.m1;
             m2 += g.m2;

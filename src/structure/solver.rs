@@ -11,9 +11,9 @@
 use super::element::{self, EndActions, Ends, Stiffness};
 use super::factor::{Factor, NotPositive};
 use super::mechanism::{self, FreeMotion};
-use super::model::FrameModel;
+use super::model::{Frame3, FrameModel};
 use super::section::Section;
-use super::system::{DOFS, System, TooLarge};
+use super::system::{DOFS, Slot, System, TooLarge};
 use nalgebra::Vector3;
 use nalgebra_sparse::CscMatrix;
 
@@ -47,6 +47,11 @@ pub struct Refined {
 }
 
 impl Refined {
+    /// The ends of a member in its local axes.
+    pub fn ends(&self, slot: &Slot, axes: &Frame3) -> Ends {
+        Ends::local_of(&self.u, &self.rest, slot.start, slot.end, axes)
+    }
+
     /// The sum with a correction.
     pub fn plus(&self, correction: &[f64]) -> Self {
         let small: Vec<f64> = self.rest.iter().zip(correction).map(|(rest, c)| rest + c).collect();
@@ -288,8 +293,7 @@ impl<'m> Solver<'m> {
     /// f − (K + Kg(N)) u.
     pub fn residual(&self, found: &Refined, axial: Option<&[f64]>, f: &[f64]) -> Vec<f64> {
         let mut left = f.to_vec();
-        self.subtract_forces(&found.u, axial, &mut left);
-        self.subtract_forces(&found.rest, axial, &mut left);
+        self.subtract_forces_of(|slot, axes| found.ends(slot, axes), axial, &mut left);
         left
     }
 
@@ -318,8 +322,19 @@ impl<'m> Solver<'m> {
 
     /// r −= (K + Kg(N)) u, element by element.
     pub fn subtract_forces(&self, u: &[f64], axial: Option<&[f64]>, r: &mut [f64]) {
+        self.subtract_forces_of(|slot, axes| Ends::read(u, slot.start, slot.end).local(axes), axial, r);
+    }
+
+    /// The same, given the ends of each member in its local axes.
+    #[inline]
+    fn subtract_forces_of(
+        &self,
+        ends: impl Fn(&Slot, &Frame3) -> Ends,
+        axial: Option<&[f64]>,
+        r: &mut [f64],
+    ) {
         for (m, (axes, slot)) in self.model.axes().iter().zip(self.system.slots()).enumerate() {
-            let ends = Ends::read(u, slot.start, slot.end).local(axes);
+            let ends = ends(slot, axes);
             let mut actions = self.stiffness[m].apply_local(&ends);
             if let Some(axial) = axial {
                 let g = element::geometric_actions(&Vector3::x(), axes.length, axial[m], &ends);
@@ -357,10 +372,10 @@ impl<'m> Solver<'m> {
 
     /// The same of displacements in two parts.
     pub fn axial_forces_of(&self, found: &Refined, axial: &mut Vec<f64>) {
-        let mut rest = Vec::new();
-        self.axial_forces(&found.u, axial);
-        self.axial_forces(&found.rest, &mut rest);
-        axial.iter_mut().zip(&rest).for_each(|(n, rest)| *n += rest);
+        axial.clear();
+        let members = self.model.axes().iter().zip(self.system.slots()).zip(&self.stiffness);
+        // The shift is that of the start less that of the end.
+        axial.extend(members.map(|((axes, slot), k)| -k.axial * found.ends(slot, axes).shift.x));
     }
 
     /// y = −Kg(N) x, for several columns, without a matrix.
