@@ -140,7 +140,7 @@ pub fn frame(model: &FrameModel, analysis: &FrameAnalysis) -> Result<FrameResult
     let result = if analysis.order == Order::Second {
         let u = solver
             .second_order(&f, &axial, SECOND_ORDER_TOLERANCE, LEAST_STEP)
-            .map_err(|lost| unstable(&mut solver, &axial, lost))?;
+            .map_err(|lost| unstable(&mut solver, &first.u, &axial, lost))?;
         finite(&u.u)?;
         solver.axial_forces_of(&u, &mut axial);
         balanced(solver.imbalance(&u, Some(&axial), &f))?;
@@ -180,18 +180,16 @@ pub fn silence(solver: &Solver<'_>, u: &[f64], axial: &mut [f64]) {
 }
 
 /// Names what gives way: the first buckling mode under the axial forces where the path of equilibrium ends, or, where
-/// there is none, under those of first order.
-fn unstable(solver: &mut Solver<'_>, axial: &[f64], lost: Lost) -> FrameError {
+/// there is none, under those of first order; else where the displacements `u` of first order are largest.
+fn unstable(solver: &mut Solver<'_>, u: &[f64], axial: &[f64], lost: Lost) -> FrameError {
     let Lost { reason: Reason::PastCritical, axial: last, .. } = lost else {
         return FrameError::NotSettled { share: lost.share };
     };
     let mode = [last.as_slice(), axial]
         .into_iter()
         .find_map(|axial| buckling::first(solver, axial, NAMING).ok().flatten());
-    match mode {
-        Some(mode) => FrameError::Unstable(mechanism::largest(solver.model(), solver.system(), &mode.shape)),
-        None => FrameError::NotSettled { share: lost.share },
-    }
+    let motion = mode.as_ref().map_or(u, |mode| &mode.shape);
+    FrameError::Unstable(mechanism::largest(solver.model(), solver.system(), motion))
 }
 
 fn collect(

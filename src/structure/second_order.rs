@@ -35,7 +35,8 @@ pub struct Lost {
     pub axial: Vec<f64>,
 }
 
-/// The least step, as a share of the whole load, in which it is followed: how closely the critical load is told.
+/// The least step in which the load is followed, as a share of what is on already: how closely the critical load is told.
+/// Its square, as a share of the whole, is how small a load still counts.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct LeastStep(pub f64);
 
@@ -50,7 +51,7 @@ const MOST_IN_STEP: usize = 40;
 const MOST_CORRECTIONS: usize = 4;
 /// Steps of the iteration by which the next is corrected, and the share of the largest singular value below which they
 /// count as dependent.
-const DEPTH: usize = 5;
+const DEPTH: usize = 10;
 const INDEPENDENT: f64 = 1e-10;
 /// Tolerance of the states in between.
 const ON_THE_WAY: f64 = 1e-6;
@@ -302,7 +303,7 @@ impl Solver<'_> {
                     (share, axial) = (next, state.axial);
                     step = (1.5 * taken).min(1.0 - share);
                 }
-                Err(_) if step > least => step *= 0.5,
+                Err(_) if step > least * share.max(least) => step *= 0.5,
                 Err(_) => {
                     // At a limit point they grow without bounds, at a bifurcation K + Kg loses its definiteness.
                     let ahead: Vec<f64> =
