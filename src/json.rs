@@ -40,13 +40,56 @@ pub fn read<T: DeserializeOwned>(text: &str) -> Result<T, JsonError> {
 }
 
 fn wrong(key: &str, error: &serde_json::Error) -> JsonError {
-    let message = WORDS.iter().fold(error.to_string(), |text, (from, to)| text.replace(from, to));
+    let text = error.to_string();
+    let message = unknown_name(&text)
+        .unwrap_or_else(|| WORDS.iter().fold(text, |text, (from, to)| text.replace(from, to)));
     JsonError { key: key.to_owned(), message }
+}
+
+/// What serde says of a key or a word that it does not know, with the nearest that it does.
+fn unknown_name(text: &str) -> Option<String> {
+    let (what, rest) = [("unknown field `", "key"), ("unknown variant `", "word")]
+        .into_iter()
+        .find_map(|(start, what)| Some((what, text.strip_prefix(start)?)))?;
+    let (name, rest) = rest.split_once('`')?;
+    let (list, place) = rest.rfind(" at line ").map_or((rest, ""), |at| rest.split_at(at));
+    let known: Vec<&str> = list.split('`').skip(1).step_by(2).collect();
+    let hint = suggestion(name, &known);
+    Some(format!("unknown {what} `{name}`{hint}; allowed here: {}{place}", known.join(", ")))
+}
+
+/// `, did you mean …?`, if a known word is near.
+pub fn suggestion(name: &str, known: &[&str]) -> String {
+    let likeness = |word: &&&str| strsim::damerau_levenshtein(name, word);
+    let nearest = known.iter().min_by_key(likeness);
+    let near = nearest.filter(|word| strsim::damerau_levenshtein(name, word) <= 1 + name.chars().count() / 4);
+    near.map_or(String::new(), |word| format!(", did you mean `{word}`?"))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_unknown_key_is_told_with_the_nearest() {
+        #[derive(Debug, serde::Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct Two {
+            #[serde(rename = "supports")]
+            _supports: u32,
+            #[serde(rename = "loads")]
+            _loads: u32,
+        }
+        let error = |text: &str| read::<Two>(text).expect_err("wrong").to_string();
+        assert_eq!(
+            error(r#"{"suports": 1}"#),
+            "suports: unknown key `suports`, did you mean `supports`?; allowed here: supports, loads at line 1 column 10"
+        );
+        assert!(
+            error(r#"{"temperature": 1}"#)
+                .contains("unknown key `temperature`; allowed here: supports, loads at")
+        );
+    }
 
     #[test]
     fn errors_speak_of_numbers_and_places() {

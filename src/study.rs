@@ -336,6 +336,7 @@ impl Study {
             reason,
             objectives: if objectives.len() == self.objectives.len() { objectives } else { Vec::new() },
             metrics: design.metrics(),
+            governing: objectives::governing(&analysed),
             structural: design.response.is_some(),
         }
         .sanitised(self.objectives.len())
@@ -507,6 +508,7 @@ impl From<&Failure> for Evaluation {
             reason: failure.reason.clone(),
             objectives: Vec::new(),
             metrics,
+            governing: Vec::new(),
             structural: failure.structural,
         }
     }

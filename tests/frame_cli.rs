@@ -98,3 +98,85 @@ fn wrong_input_says_what_and_where_with_exit_2() {
     let (code, _, err) = frame(&["no_such_file.json"]);
     assert!(code == 2 && err.contains("no_such_file.json"), "{err}");
 }
+
+#[test]
+fn an_unknown_key_is_an_error_with_the_nearest_at_every_depth() {
+    type Change = fn(&mut Value);
+    fn rename(object: &mut Value, from: &str, to: &str) {
+        let object = object.as_object_mut().unwrap();
+        let value = object.remove(from).unwrap_or(json!(1));
+        object.insert(to.into(), value);
+    }
+    let wrong: [(Change, &str); 12] = [
+        (|m| rename(m, "supports", "suports"), "unknown key `suports`, did you mean `supports`?"),
+        (|m| rename(m, "none", "temperature"), "unknown key `temperature`; allowed here: material"),
+        (|m| rename(&mut m["loads"], "member_uniform", "member_unifrom"), "did you mean `member_uniform`?"),
+        (|m| rename(&mut m["members"][0], "none", "releases"), "members[0].releases: unknown key `releases`"),
+        (|m| rename(&mut m["material"], "none", "nu"), "unknown key `nu`"),
+        (|m| rename(&mut m["supports"][0], "fixed", "fixd"), "did you mean `fixed`?"),
+        (|m| rename(&mut m["analysis"], "none", "buckling_mode"), "did you mean `buckling_modes`?"),
+        (|m| rename(&mut m["section"], "none", "heigth"), "unknown key `heigth`"),
+        (|m| m["section"]["kind"] = json!("pipe"), "unknown word `pipe`"),
+        (|m| m["loads"]["nodal"] = json!([{"node": 1, "froce": [1, 0, 0]}]), "did you mean `force`?"),
+        (
+            |m| m["loads"]["member_uniform"] = json!([{"member": 0, "force_per_lenght": [1, 0, 0]}]),
+            "force_per_length",
+        ),
+        (|m| m["analysis"]["order"] = json!(0), "analysis.order = 0"),
+    ];
+    for (change, expected) in wrong {
+        let (code, out, err) = changed(change);
+        let answer: Value = serde_json::from_str(&out).unwrap();
+        assert_eq!((code, &answer["error"]), (2, &json!("refused")), "{expected}: {err}");
+        assert!(answer["message"].as_str().unwrap().contains(expected), "{expected:?} is not in {answer}");
+    }
+    let (code, _, err) = changed(|m| {
+        for key in ["name", "description", "source", "expected", "tolerance", "verification"] {
+            m[key] = json!({"for": "people"});
+        }
+    });
+    assert_eq!((code, err.as_str()), (0, ""));
+}
+
+#[test]
+fn bending_without_a_factor_says_what_the_model_leaves_out() {
+    let beam = |order: u32, modes: u32, force: [f64; 3]| {
+        changed(move |m| {
+            m["supports"] = json!([{"node": 0, "fixed": [true, true, true, true, true, true]}]);
+            let last = m["nodes"].as_array().unwrap().len() - 1;
+            m["nodes"] = json!((0..=last).map(|i| [i as f64, 0.0, 0.0]).collect::<Vec<_>>());
+            m["members"] = json!(
+                (0..last).map(|i| json!({"start": i, "end": i + 1, "up": [0, 0, 1]})).collect::<Vec<_>>()
+            );
+            m["loads"] = json!({"nodal": [{"node": last, "force": force}]});
+            m["analysis"] = json!({"order": order, "buckling_modes": modes});
+        })
+    };
+    let remarks = |(code, out, err): (i32, String, String)| {
+        assert_eq!((code, err.as_str()), (0, ""));
+        serde_json::from_str::<Value>(&out).unwrap()["remarks"].to_string()
+    };
+    for order in [1, 2] {
+        assert!(remarks(beam(order, 1, [0.0, 0.0, -10.0])).contains("lateral-torsional buckling"));
+        // Tension: nothing buckles, and nothing bends. Compression has a factor. Who asked for none is told nothing.
+        assert_eq!(remarks(beam(order, 1, [10.0, 0.0, 0.0])), "[]");
+        assert_eq!(remarks(beam(order, 1, [-10.0, 0.0, -10.0])), "[]");
+        assert_eq!(remarks(beam(order, 0, [0.0, 0.0, -10.0])), "[]");
+    }
+}
+
+#[test]
+fn help_tells_the_format() {
+    let (code, out, _) = frame(&["--help"]);
+    assert_eq!(code, 0);
+    for key in [
+        "member_uniform",
+        "buckling_modes",
+        "shear_deformation",
+        "\"fixed\"",
+        "docs/frame.md",
+        "lateral-torsional",
+    ] {
+        assert!(out.contains(key), "{key} is not in\n{out}");
+    }
+}

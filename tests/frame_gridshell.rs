@@ -8,8 +8,8 @@ use frame_support::{court, dome};
 use quadrille::geometry::Pattern;
 use quadrille::structure::gridshell::{AnalysisError, Proof, Response, analyse, analyse_detailed};
 use quadrille::structure::params::{
-    Direction, HeightParams, LoadParams, RequirementParams, SectionParams, StructureParams, SupportParams,
-    SupportPlace,
+    Direction, HeightParams, LoadParams, Quantity, RequirementParams, SectionParams, StructureParams,
+    SupportParams, SupportPlace,
 };
 use quadrille::structure::section::Section;
 
@@ -196,7 +196,9 @@ fn what_is_wrong_with_the_parameters_is_named() {
     };
     assert!(keys(|_| ()).is_empty());
     assert_eq!(keys(|p| p.order = 3), ["order"]);
-    assert_eq!(keys(|p| p.material.poisson = 0.5), ["material.poisson"]);
+    assert!(keys(|p| p.material.poisson = 0.5).is_empty());
+    assert_eq!(keys(|p| p.material.poisson = 0.501), ["material.poisson"]);
+    assert_eq!(keys(|p| p.material.poisson = -1.0), ["material.poisson"]);
     assert_eq!(keys(|p| p.height = HeightParams::Fixed { fixed_m: 0.04 }), ["height.fixed_m"]);
     assert_eq!(keys(|p| p.height = HeightParams::Fixed { fixed_m: -1.0 }), ["height.fixed_m"]);
     assert_eq!(
@@ -222,4 +224,56 @@ fn deflection_comes_from_the_combination_its_requirement_names() {
     assert!(uls.deflection_m > 1.3 * sls.deflection_m);
     params.requirements = Vec::<RequirementParams>::new();
     assert_eq!(analyse(&pattern, &params).unwrap().deflection_m, sls.deflection_m);
+}
+
+/// Three combinations, one of them with requirements that nothing meets, and every order of the requirements.
+#[test]
+fn metrics_are_the_worst_over_all_combinations_required_whatever_their_order() {
+    let pattern: Pattern = dome(6, 18.0, 2.0);
+    let mut params = at_height(0.2);
+    let scaled = |factor: f64| [("self_weight", factor), ("glass", factor), ("snow", factor)];
+    for (name, factor) in [("light", 0.5), ("heavy", 3.0), ("unasked", 9.0)] {
+        let cases = scaled(factor).into_iter().map(|(case, factor)| (case.to_owned(), factor)).collect();
+        params.combinations.insert(name.into(), cases);
+    }
+    let one = |quantity, combination: &str| {
+        let (max, min) =
+            if quantity == Quantity::BucklingFactor { (None, Some(1.5)) } else { (Some(0.5), None) };
+        RequirementParams { quantity, combination: combination.into(), max, min }
+    };
+    let quantities = [Quantity::Utilisation, Quantity::Deflection, Quantity::BucklingFactor];
+    let all: Vec<_> = quantities
+        .into_iter()
+        .flat_map(|quantity| ["light", "heavy", "uls"].map(|name| one(quantity, name)))
+        .collect();
+    let alone = |name: &str| {
+        let mut params = params.clone();
+        params.requirements = quantities.map(|quantity| one(quantity, name)).into();
+        analyse(&pattern, &params).unwrap()
+    };
+    let (light, heavy) = (alone("light"), alone("heavy"));
+    assert!(heavy.utilisation > 2.0 * light.utilisation && heavy.buckling_factor < light.buckling_factor);
+    for turn in 0..all.len() {
+        params.requirements = all.clone();
+        params.requirements.rotate_left(turn);
+        let response = analyse(&pattern, &params).unwrap();
+        assert_eq!(response.utilisation, heavy.utilisation);
+        assert_eq!(response.utilisation_all, heavy.utilisation_all);
+        assert_eq!(response.utilisation_von_mises, heavy.utilisation_von_mises);
+        assert_eq!(response.deflection_m, heavy.deflection_m);
+        assert_eq!(response.support_slide_m, heavy.support_slide_m);
+        assert_eq!(response.buckling_factor, heavy.buckling_factor);
+        let governing = &response.governing;
+        assert_eq!(
+            [&governing.utilisation, &governing.deflection, governing.buckling.as_ref().unwrap()],
+            ["heavy"; 3]
+        );
+    }
+    // A quantity that no requirement names follows its family.
+    params.requirements =
+        vec![one(Quantity::UtilisationAll, "light"), one(Quantity::UtilisationAll, "heavy")];
+    let response = analyse(&pattern, &params).unwrap();
+    assert_eq!((response.utilisation, response.governing.utilisation.as_str()), (heavy.utilisation, "heavy"));
+    let detailed = analyse_detailed(&pattern, &params, Proof::None).unwrap();
+    assert_eq!(detailed.enveloped, ["heavy", "light"]);
 }

@@ -7,10 +7,10 @@ use frame_support::{Bend, random_tower, renumbered, rotated};
 use quadrille::random;
 use quadrille::structure::model::FrameParts;
 use quadrille::structure::section::Section;
-use quadrille::structure::{FrameAnalysis, FrameModel, FrameResult, frame};
+use quadrille::structure::{FrameAnalysis, FrameModel, FrameResult, Order, frame};
 
-const FIRST: FrameAnalysis = FrameAnalysis { order: 1, buckling_modes: 3 };
-const SECOND: FrameAnalysis = FrameAnalysis { order: 2, buckling_modes: 3 };
+const FIRST: FrameAnalysis = FrameAnalysis { order: Order::First, buckling_modes: 3 };
+const SECOND: FrameAnalysis = FrameAnalysis { order: Order::Second, buckling_modes: 3 };
 
 fn solve(parts: &FrameParts, analysis: &FrameAnalysis) -> FrameResult {
     frame(&FrameModel::new(parts.clone()).unwrap(), analysis).unwrap()
@@ -118,7 +118,8 @@ fn the_same_input_gives_the_same_bytes() {
 fn the_buckling_factor_of_a_column_converges_with_the_fourth_order() {
     let error = |elements: u32| {
         let column = Bend { elements }.pinned_column();
-        let factor = solve(&column, &FrameAnalysis { order: 1, buckling_modes: 1 }).buckling_factors[0];
+        let factor =
+            solve(&column, &FrameAnalysis { order: Order::First, buckling_modes: 1 }).buckling_factors[0];
         let section = Section::rectangular_hollow(0.1, 0.18, 0.006).unwrap();
         let euler = std::f64::consts::PI.powi(2) * 210e9 * section.iz / (25.0 * 1e5);
         factor / euler - 1.0

@@ -164,7 +164,12 @@ fn every_model_is_answered_or_its_error_named() {
                     assert!(spread > 1e8, "seed {seed}: {left:e} left over, spread {spread:e}\n{case}");
                     "ill-conditioned"
                 }
-                Err(FrameError::NoConvergence) => "not converged",
+                Err(FrameError::NoDigits) => {
+                    let spread = spread_of_stiffness(&case);
+                    assert!(spread > 1e8, "seed {seed}: no digits left, spread {spread:e}\n{case}");
+                    "ill-conditioned"
+                }
+                Err(FrameError::NoConvergence | FrameError::NotSettled { .. }) => "not converged",
                 Err(error) => panic!("seed {seed}: {error}\n{case}"),
             },
         };

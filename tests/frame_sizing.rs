@@ -184,7 +184,7 @@ fn settles(pattern: &Pattern, params: &StructureParams) -> bool {
     solver.member_loads(&cases, &mut loads);
     let mut f = vec![0.0; solver.system().unknowns()];
     solver.load_vector(&cases, &loads, &mut f);
-    let mut u = solver.first_order(&f);
+    let mut u = solver.first_order(&f).u;
     let aim = Aim { second_order: true, tolerance: 1e-6 };
     solver.iterate(&f, &mut u, aim, &mut Room::default())
 }

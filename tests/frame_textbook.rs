@@ -3,7 +3,7 @@
 
 use quadrille::structure::model::{FrameParts, LoadCase, Material, Member, NodalLoad, Support, UniformLoad};
 use quadrille::structure::section::Section;
-use quadrille::structure::{FrameAnalysis, FrameError, FrameModel, FrameResult, frame};
+use quadrille::structure::{FrameAnalysis, FrameError, FrameModel, FrameResult, Order, frame};
 use std::f64::consts::PI;
 
 const E: f64 = 210e9;
@@ -46,7 +46,7 @@ fn load_all(parts: &mut FrameParts, force_per_length: [f64; 3]) {
     parts.load_cases[0].uniform = all.map(|member| UniformLoad { member, force_per_length }).collect();
 }
 
-fn answer(parts: FrameParts, order: u8, buckling_modes: usize) -> Result<FrameResult, FrameError> {
+fn answer(parts: FrameParts, order: Order, buckling_modes: usize) -> Result<FrameResult, FrameError> {
     frame(&FrameModel::new(parts).unwrap(), &FrameAnalysis { order, buckling_modes })
 }
 
@@ -67,7 +67,7 @@ fn propped_cantilever() {
     let mut parts =
         polyline(straight([0.0; 3], [l, 0.0, 0.0], 4), [0.0, 0.0, 1.0], &[(0, CLAMPED), (4, prop)]);
     load_all(&mut parts, [0.0, 0.0, -q]);
-    let result = answer(parts, 1, 0).unwrap();
+    let result = answer(parts, Order::First, 0).unwrap();
     close(reaction(&result, 4, 2), 0.375 * q * l, 1e-9);
     close(reaction(&result, 0, 4).abs(), q * l * l / 8.0, 1e-9);
     close(result.utilisation().unwrap().0, q * l * l / 8.0 / 2e-4 / 355e6, 1e-9);
@@ -84,7 +84,7 @@ fn two_spans() {
     ];
     let mut parts = polyline(straight([0.0; 3], [0.0, 2.0 * l, 0.0], 4), [0.0, 0.0, 1.0], &held);
     load_all(&mut parts, [0.0, 0.0, -q]);
-    close(reaction(&answer(parts, 1, 0).unwrap(), 2, 2), 1.25 * q * l, 1e-9);
+    close(reaction(&answer(parts, Order::First, 0).unwrap(), 2, 2), 1.25 * q * l, 1e-9);
 }
 
 /// A cantilever bent at a right angle, loaded across its plane: bending of both parts and torsion of the first.
@@ -94,7 +94,7 @@ fn bent_cantilever_twists() {
     let nodes = vec![[0.0; 3], [a, 0.0, 0.0], [a, b, 0.0]];
     let mut parts = polyline(nodes, [0.0, 0.0, 1.0], &[(0, CLAMPED)]);
     push(&mut parts, 2, [0.0, 0.0, -p, 0.0, 0.0, 0.0]);
-    let sinks = -answer(parts, 1, 0).unwrap().displacements[2][2];
+    let sinks = -answer(parts, Order::First, 0).unwrap().displacements[2][2];
     close(sinks, p * (a.powi(3) + b.powi(3)) / (3.0 * E * STRONG) + p * b * b * a / (G * 2e-5), 1e-9);
 }
 
@@ -104,7 +104,7 @@ fn inclined_beam_under_its_weight() {
     let mut parts = polyline(vec![[0.0; 3], [3.0, 0.0, 4.0]], [0.0, 0.0, 1.0], &[(0, CLAMPED), (1, CLAMPED)]);
     parts.load_cases[0].gravity = 9.81;
     let w = 7850.0 * 4e-3 * 9.81;
-    let result = answer(parts, 1, 0).unwrap();
+    let result = answer(parts, Order::First, 0).unwrap();
     close(result.total_reaction[2], 5.0 * w, 1e-12);
     close(result.member_forces[0].start.my.abs(), 0.6 * w * 25.0 / 12.0, 1e-9);
     close(result.member_forces[0].start.n, -0.8 * w * 2.5, 1e-9);
@@ -125,7 +125,7 @@ fn tie_and_strut_under_load_across() {
         let mut parts = polyline(straight([0.0; 3], [l, 0.0, 0.0], count), [0.0, 0.0, 1.0], &held);
         load_all(&mut parts, [0.0, 0.0, -q]);
         push(&mut parts, count, [sign * n, 0.0, 0.0, 0.0, 0.0, 0.0]);
-        let result = answer(parts, 2, 2).unwrap();
+        let result = answer(parts, Order::Second, 2).unwrap();
         close(-result.displacements[count / 2][2], expected, 1e-6);
         if sign > 0.0 {
             assert!(result.buckling_factors.is_empty(), "{:?}", result.buckling_factors);
@@ -159,7 +159,11 @@ fn portal_on_hinges_sways() {
         let x: f64 = 0.5 * (low + high);
         if x * x.tan() < 6.0 * h / b { low = x } else { high = x }
     }
-    close(answer(parts, 1, 1).unwrap().buckling_factors[0], low * low * E * WEAK / (h * h * p), 1e-6);
+    close(
+        answer(parts, Order::First, 1).unwrap().buckling_factors[0],
+        low * low * E * WEAK / (h * h * p),
+        1e-6,
+    );
 }
 
 /// A column clamped at both ends, just below and just above its Euler load 4π²EI/L².
@@ -169,7 +173,7 @@ fn clamped_column_up_to_its_load_and_no_further() {
         let held = [(0, CLAMPED), (8, [true, true, false, true, true, true])];
         let mut parts = polyline(straight([0.0; 3], [0.0, 0.0, 5.0], 8), [1.0, 0.0, 0.0], &held);
         push(&mut parts, 8, [0.0, 0.0, -share * 4.0 * PI * PI * E * WEAK / 25.0, 0.0, 0.0, 0.0]);
-        match answer(parts, 2, 1) {
+        match answer(parts, Order::Second, 1) {
             Ok(result) => {
                 assert!(share < 1.0);
                 close(result.buckling_factors[0], 1.0 / share, 1e-3);
@@ -187,7 +191,7 @@ fn shear_in_one_direction_only() {
     parts.shear_deformation = true;
     parts.sections[0].asy = 2e-3;
     push(&mut parts, 1, [0.0, 1e3, 1e3, 0.0, 0.0, 0.0]);
-    let u = answer(parts, 1, 0).unwrap().displacements[1];
+    let u = answer(parts, Order::First, 0).unwrap().displacements[1];
     close(u[1], 1e3 / (3.0 * E * WEAK) + 1e3 / (G * 2e-3), 1e-9);
     close(u[2], 1e3 / (3.0 * E * STRONG), 1e-9);
 }

@@ -5,7 +5,7 @@ use quadrille::evolve::{Domination, compare_objectives};
 use quadrille::geometry::Pattern;
 use quadrille::grammar::Tokens;
 use quadrille::mesh::{CanonicalMesh, Code};
-use quadrille::objectives::METRICS;
+use quadrille::objectives::{GOVERNING, METRICS};
 use quadrille::output::designs::id;
 use quadrille::output::number::significant;
 use quadrille::output::results::{DesignFiles, Developed};
@@ -112,7 +112,8 @@ impl Comparison {
     fn with(&self, number: impl Fn(f64, f64) -> f64) -> Table {
         let head = ["name", "string", "id", "feasible", "non_dominated"];
         let columns = METRICS.iter().map(|metric| metric.column);
-        let mut table = Table::new(head.into_iter().chain(columns).chain(["reason"]));
+        let governing = GOVERNING.iter().map(|(column, _)| *column);
+        let mut table = Table::new(head.into_iter().chain(columns).chain(governing).chain(["reason"]));
         for (index, entry) in self.entries.iter().enumerate() {
             let evaluation = &entry.evaluation;
             let mut cells: Vec<Cell> = vec![
@@ -126,6 +127,8 @@ impl Comparison {
                 (0..METRICS.len())
                     .map(|m| Cell::from(self.value(entry, m).map(|value| number(value, self.largest(m))))),
             );
+            cells
+                .extend((0..GOVERNING.len()).map(|i| governing_in(entry, i).map_or(Cell::Empty, Cell::from)));
             cells.push(Cell::words(&evaluation.reason));
             table.rows.push(cells);
         }
@@ -163,6 +166,15 @@ impl Comparison {
         for metric in first.into_iter().chain(rest) {
             self.line(&mut text, metric);
         }
+        for (index, (column, _)) in GOVERNING.iter().enumerate() {
+            if self.entries.iter().any(|entry| governing_in(entry, index).is_some()) {
+                let _ = write!(text, "{column:<26}");
+                for entry in &self.entries {
+                    let _ = write!(text, "{:>20}", governing_in(entry, index).unwrap_or("–"));
+                }
+                text.push('\n');
+            }
+        }
         text
     }
 
@@ -182,6 +194,11 @@ impl Comparison {
         }
         text.push('\n');
     }
+}
+
+/// One of the combinations that govern a design.
+fn governing_in(entry: &Entry, index: usize) -> Option<&str> {
+    entry.evaluation.governing.get(index).map(String::as_str).filter(|name| !name.is_empty())
 }
 
 /// The numbers of a topology, and what there is of it.

@@ -11,9 +11,24 @@ use std::process::ExitCode;
 
 /// Analyse any 3D frame: displacements, reactions, member forces, buckling factors, utilisation.
 ///
-/// The model is JSON in SI units: material, section, nodes, members, supports, loads, and the analysis wanted. A
-/// mechanism or a structure past its critical load is named, by node and direction, with exit code 1.
+/// The model is JSON in SI units (m, N, Pa, kg); docs/frame.md tells what each key means, and what is printed:
+///
+/// { "material": {"E", "G", "density", "fy"},
+///   "section": {"kind": "box", "width", "height", "thickness"} or {"kind": "round", "diameter"}
+///     or {"kind": "tube", "diameter", "thickness"}
+///     or {"kind": "properties", "A", "Iy", "Iz", "J", and where known "Wy", "Wz", "Asy", "Asz"},
+///   "nodes": [[x, y, z] …], "members": [{"start", "end", "up": [x, y, z]} …],
+///   "supports": [{"node", "fixed": [ux, uy, uz, rx, ry, rz]} …],
+///   "loads": {"nodal": [{"node", "force", "moment"} …],
+///     "member_uniform": [{"member", "force_per_length"} …], "gravity": g},
+///   "shear_deformation": true or false, "analysis": {"order": 1 or 2, "buckling_modes": n} }
+///
+/// Nodes and members are counted from 0. `name`, `description`, `source`, `expected`, `tolerance` and `verification` are
+/// for people; any other key is an error. A mechanism or a structure past its critical load is named, by node and
+/// direction, with exit code 1; a wrong model ends with 2. The geometric stiffness is that of axial force:
+/// lateral-torsional buckling is not found.
 #[derive(clap::Args)]
+#[command(verbatim_doc_comment)]
 pub struct Args {
     /// The model.
     #[arg(value_name = "MODEL.json")]
@@ -71,7 +86,7 @@ fn summary(model: &FrameModel, result: &FrameResult) -> String {
     };
     line("nodes", model.nodes().len().to_string());
     line("members", model.members().len().to_string());
-    line("order", result.order.to_string());
+    line("order", (result.order as u8).to_string());
     let (largest, node) = result.max_displacement;
     line("largest displacement", format!("{:.4} mm at {node}", 1e3 * largest));
     let [x, y, z] = result.total_reaction.map(|r| r / 1e3);
@@ -89,11 +104,16 @@ fn summary(model: &FrameModel, result: &FrameResult) -> String {
     } else {
         line("utilisation", "not known: the section gives no Wy, Wz".into());
     }
-    if result.buckling_factors.is_empty() {
+    if result.modes_asked == 0 {
+        line("buckling factors", "not asked for (analysis.buckling_modes)".into());
+    } else if result.buckling_factors.is_empty() {
         line("buckling factors", "none".into());
     } else {
         let factors: Vec<String> = result.buckling_factors.iter().map(|f| format!("{f:.4}")).collect();
         line("buckling factors", factors.join(", "));
+    }
+    for remark in result.remarks() {
+        line("remark", remark.into());
     }
     text
 }

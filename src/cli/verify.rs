@@ -3,7 +3,7 @@
 use super::folder_args::{FolderArgs, find, same_code};
 use super::{CliError, Console, exit};
 use quadrille::mesh::Code;
-use quadrille::objectives::METRICS;
+use quadrille::objectives::{GOVERNING, METRICS};
 use quadrille::output::consistency::{Contradiction, contradictions};
 use quadrille::output::designs::id;
 use quadrille::output::load::Loaded;
@@ -104,7 +104,10 @@ fn words(row: &EvaluatedRow, now: &Evaluation, expressed: &str) -> Vec<String> {
         ("violation_stage", then.stage.to_string(), now.violation.stage.to_string()),
         ("reason", reason, now.reason.clone()),
     ];
-    let different = cells.into_iter().filter(|(_, then, now)| !same_words(then, now));
+    // Folders of older versions do not name them.
+    let governing = GOVERNING.iter().zip(row.governing.iter().zip(&now.governing));
+    let governing = governing.map(|((column, _), (then, now))| (*column, then.to_string(), now.clone()));
+    let different = cells.into_iter().chain(governing).filter(|(_, then, now)| !same_words(then, now));
     different.map(|(column, then, now)| format!("{column}: file \"{then}\", now \"{now}\"")).collect()
 }
 

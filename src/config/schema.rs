@@ -5,6 +5,7 @@
 
 use super::error::Problem;
 use super::path::KeyPath;
+pub use crate::json::suggestion;
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value as Json};
 use toml::{Table, Value};
@@ -319,14 +320,6 @@ fn fits(value: &Value, schema: &Json) -> bool {
 
 fn quoted(words: &[&str]) -> String {
     words.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(", ")
-}
-
-/// `, did you mean …?`, if a known word is near.
-pub fn suggestion(name: &str, known: &[&str]) -> String {
-    let likeness = |word: &&&str| strsim::damerau_levenshtein(name, word);
-    let nearest = known.iter().min_by_key(likeness);
-    let near = nearest.filter(|word| strsim::damerau_levenshtein(name, word) <= 1 + name.chars().count() / 4);
-    near.map_or(String::new(), |word| format!(", did you mean `{word}`?"))
 }
 
 /// A value as it would be written, shortened.

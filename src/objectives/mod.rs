@@ -9,7 +9,7 @@ mod topological;
 
 use crate::geometry::metrics::Fabrication;
 use crate::mesh::CanonicalMesh;
-use crate::structure::gridshell::Response;
+use crate::structure::gridshell::{Governing, Response};
 
 /// A design after all stages: what metrics are read from.
 #[derive(Clone, Copy, Debug)]
@@ -96,6 +96,22 @@ pub fn better_large(name: &str) -> Option<&'static str> {
         "area_covered" => Some("boundary_gap"),
         _ => None,
     }
+}
+
+/// The columns that say in which combination of loads a metric is taken, and which combination that is.
+pub const GOVERNING: [(&str, GoverningOf); 3] = [
+    ("deflection_combination", |governing| Some(&governing.deflection)),
+    ("utilisation_combination", |governing| Some(&governing.utilisation)),
+    ("buckling_combination", |governing| governing.buckling.as_deref()),
+];
+
+/// Reads one combination off those that govern.
+pub type GoverningOf = fn(&Governing) -> Option<&str>;
+
+/// The combinations of [`GOVERNING`], in that order; none without an analysis, an empty one where nothing governs.
+pub fn governing(design: &AnalysedDesign) -> Vec<String> {
+    let Some(response) = design.response else { return Vec::new() };
+    GOVERNING.iter().map(|(_, of)| of(&response.governing).unwrap_or_default().to_owned()).collect()
 }
 
 /// The metric of a name.

@@ -17,7 +17,7 @@ pub const DEFLECTION: Metric = Metric {
     name: "deflection",
     column: "deflection_m",
     unit: "m",
-    about: "F: largest resultant displacement of a node in the serviceability combination",
+    about: "F: largest resultant displacement of a node, the worst over the combinations required of it (or `sls`)",
     structural: true,
     value: |design| design.response.map(|r| r.deflection_m),
 };
@@ -27,7 +27,7 @@ pub const UTILISATION: Metric = Metric {
     name: "utilisation",
     column: "utilisation",
     unit: "",
-    about: "U: largest elastic utilisation in the ultimate combination, outside the excluded zones",
+    about: "U: largest elastic utilisation outside the excluded zones, the worst over the combinations required of it (or `uls`)",
     structural: true,
     value: |design| design.response.map(|r| r.utilisation),
 };
@@ -37,7 +37,7 @@ pub const BUCKLING: Metric = Metric {
     name: "buckling",
     column: "buckling",
     unit: "",
-    about: "1/B: inverse of the first positive buckling factor of the ultimate combination; 0 where there is none",
+    about: "1/B: inverse of the first positive buckling factor, the worst over the combinations required of it (or `uls`); 0 where there is none",
     structural: true,
     value: |design| design.response.map(|r| 1.0 / r.buckling_factor),
 };
@@ -57,7 +57,7 @@ pub const BUCKLING_FACTOR: Metric = Metric {
     name: "buckling_factor",
     column: "buckling_factor",
     unit: "",
-    about: "B: first positive buckling factor of the ultimate combination; none where nothing buckles",
+    about: "B: first positive buckling factor, the least over the combinations required of it (or `uls`); none where nothing buckles",
     structural: true,
     value: |design| design.response.map(|r| r.buckling_factor),
 };
@@ -87,7 +87,7 @@ pub const DEFLECTION_VERTICAL: Metric = Metric {
     name: "deflection_vertical",
     column: "deflection_vertical_m",
     unit: "m",
-    about: "largest vertical displacement of a node in the serviceability combination",
+    about: "largest vertical displacement of a node, the worst over the combinations required of it (or `sls`)",
     structural: true,
     value: |design| design.response.map(|r| r.deflection_vertical_m),
 };

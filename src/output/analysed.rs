@@ -79,11 +79,26 @@ impl<'a> Analysed<'a> {
         table
     }
 
-    /// The combination that the metric `utilisation` is taken from: the one with its value.
+    /// The combination that the metric `utilisation` is taken from.
     pub fn governing(&self) -> Option<&'a CombinationResult> {
-        let value = self.results?.response.utilisation;
-        let combinations = self.combinations();
-        combinations.iter().find(|c| c.metrics.utilisation.0 == value).or(combinations.last())
+        let name = &self.results?.response.governing.utilisation;
+        self.combinations().iter().find(|c| c.name == *name)
+    }
+
+    /// What each member uses of its strength as the metric `utilisation` counts it, the worst over its combinations,
+    /// and the name of the one that governs there; nothing without an analysis.
+    pub fn member_utilisation(&self) -> Vec<(f64, &'a str)> {
+        let Some(results) = self.results else { return Vec::new() };
+        let enveloped: Vec<&CombinationResult> =
+            results.combinations.iter().filter(|c| results.enveloped.contains(&c.name)).collect();
+        (0..results.model.frame.members().len())
+            .filter_map(|m| {
+                let used =
+                    enveloped.iter().map(|c| (self.utilisation(&c.member_utilisation[m]), c.name.as_str()));
+                // Of equal ones the first by name, as for the whole.
+                used.reduce(|worst, next| if next.0 > worst.0 { next } else { worst })
+            })
+            .collect()
     }
 
     /// What a member uses of its strength, as the metric `utilisation` counts it.
@@ -91,13 +106,22 @@ impl<'a> Analysed<'a> {
         if self.first_order { used.inner } else { used.ends }
     }
 
-    /// `ID_members.csv`: the edge (`from` and `to` are nodes), the nodes of this piece of it, length, utilisation, and
-    /// forces at both ends by combination.
+    /// `ID_members.csv`: the edge (`from` and `to` are nodes), the nodes of this piece of it, length, utilisation (the
+    /// worst over the combinations of that metric, and which of them governs), and forces at both ends by combination.
     ///
     /// Forces are those on the cut face whose outward normal is local +x, in local axes; tension is positive.
     pub fn members_table(&self) -> Table {
-        let first =
-            ["member", "from", "to", "start_node", "end_node", "length_m", "in_utilisation", "utilisation"];
+        let first = [
+            "member",
+            "from",
+            "to",
+            "start_node",
+            "end_node",
+            "length_m",
+            "in_utilisation",
+            "utilisation",
+            "utilisation_combination",
+        ];
         let mut columns: Vec<String> = first.map(str::to_owned).into();
         for CombinationResult { name, .. } in self.combinations() {
             for end in ["start", "end"] {
@@ -109,7 +133,7 @@ impl<'a> Analysed<'a> {
         }
         let mut table = Table::new(columns);
         let lengths = self.member_lengths();
-        let governing = self.governing();
+        let used = self.member_utilisation();
         for (m, [start, end]) in self.members().into_iter().enumerate() {
             let edge = self.results.map_or(m, |results| results.model.edge[m] as usize);
             let [from, to] = self.pattern.edges[edge];
@@ -118,7 +142,8 @@ impl<'a> Analysed<'a> {
             cells.extend(nodes);
             cells.push(lengths[m].into());
             cells.push(self.results.map_or(Cell::Empty, |results| results.model.counts[m].into()));
-            cells.push(governing.map_or(Cell::Empty, |c| result(self.utilisation(&c.member_utilisation[m]))));
+            cells.push(used.get(m).map_or(Cell::Empty, |(value, _)| result(*value)));
+            cells.push(used.get(m).map_or(Cell::Empty, |(_, combination)| Cell::from(*combination)));
             for combination in self.combinations() {
                 let forces = &combination.member_forces[m];
                 cells.extend([forces.start, forces.end].into_iter().flat_map(resultants).map(result));
@@ -168,8 +193,8 @@ impl<'a> Analysed<'a> {
         let cells: Vec<&[u32]> = members.iter().map(<[u32; 2]>::as_slice).collect();
         let mut fields =
             vec![NamedField { name: "length_m".into(), components: 1, values: self.member_lengths() }];
-        if let Some(governing) = self.governing() {
-            let values = governing.member_utilisation.iter().map(|used| self.utilisation(used)).collect();
+        if self.results.is_some() {
+            let values = self.member_utilisation().into_iter().map(|(value, _)| value).collect();
             fields.push(NamedField { name: "utilisation".into(), components: 1, values }.rounded());
         }
         for combination in self.combinations() {

@@ -2,7 +2,7 @@
 
 use super::table::{Cell, Dialect, Table};
 use crate::mesh::canonical::Code;
-use crate::objectives::{self, METRICS};
+use crate::objectives::{self, GOVERNING, METRICS};
 use crate::search::EvaluatedRow;
 use std::io::{self, Write};
 
@@ -93,6 +93,7 @@ impl Columns {
         first
             .chain(self.objectives.iter().cloned())
             .chain(self.others().map(|(_, name)| name.clone()))
+            .chain(GOVERNING.iter().map(|(name, _)| (*name).to_owned()))
             .collect()
     }
 
@@ -108,6 +109,10 @@ impl Columns {
         ];
         cells.extend((0..self.objectives.len()).map(|i| self.objective(row, i).into()));
         cells.extend(self.others().map(|(metric, _)| Cell::from(row.metrics.get(metric))));
+        let governing = |i: usize| row.governing.get(i).filter(|name| !name.is_empty());
+        cells.extend(
+            (0..GOVERNING.len()).map(|i| governing(i).map_or(Cell::Empty, |name| Cell::from(&**name))),
+        );
         cells
     }
 
@@ -179,6 +184,7 @@ pub(super) mod tests {
             reason: if violation.is_feasible() { "".into() } else { "too weak, \"badly\"".into() },
             objectives: objectives.into(),
             metrics: [Some(0.125), None, Some(1e6)].into_iter().collect(),
+            governing: Box::default(),
             structural: true,
         }
     }

@@ -100,10 +100,10 @@ fn stroke(share: f64) -> String {
 impl Picture<'_> {
     /// The largest deflection: the combination it is taken in, the value and the node.
     fn deflection(&self) -> Option<(&CombinationResult, f64, u32)> {
-        let value = self.results.response.deflection_m;
-        let found = self.results.combinations.iter().find(|c| c.metrics.deflection.0 == value)?;
-        match found.metrics.deflection.1 {
-            Place::Node(node) => Some((found, value, node)),
+        let response = &self.results.response;
+        let found = self.results.combinations.iter().find(|c| c.name == response.governing.deflection)?;
+        match response.deflection_place {
+            Place::Node(node) => Some((found, response.deflection_m, node)),
             _ => None,
         }
     }
@@ -111,7 +111,7 @@ impl Picture<'_> {
     /// The edge whose utilisation is the metric's, where it is one.
     fn governing(&self) -> Option<(&CombinationResult, u32)> {
         let combination = self.developed.analysed().governing()?;
-        match combination.metrics.utilisation.1 {
+        match self.results.response.utilisation_place {
             Place::Edge(edge) => Some((combination, edge)),
             _ => None,
         }
@@ -119,9 +119,7 @@ impl Picture<'_> {
 
     /// What each member uses, as the metric counts it.
     fn used(&self) -> Vec<f64> {
-        let analysed = self.developed.analysed();
-        let members = analysed.governing().map_or(&[][..], |c| &c.member_utilisation);
-        members.iter().map(|used| analysed.utilisation(used)).collect()
+        self.developed.analysed().member_utilisation().into_iter().map(|(value, _)| value).collect()
     }
 
     fn at(&self, node: u32) -> [f64; 2] {
@@ -212,7 +210,7 @@ impl Picture<'_> {
 
     fn legend(&self) -> Vec<Key> {
         let mut keys = Vec::new();
-        if let Some(combination) = self.developed.analysed().governing() {
+        if !self.results.enveloped.is_empty() {
             let largest = self.used().into_iter().fold(0.0, f64::max);
             let sample = (0..=SHADES).fold(String::new(), |mut sample, class| {
                 let x = 11 * class;
@@ -220,8 +218,8 @@ impl Picture<'_> {
                 let _ = write!(sample, "<path {stroke} d=\"M{x} 0H{}\"/>", x + 11);
                 sample
             });
-            let words =
-                format!("utilisation of members, {}: 0 to {}", combination.name, significant(largest));
+            let names = self.results.enveloped.join(" or ");
+            let words = format!("utilisation of members, {names}: 0 to {}", significant(largest));
             keys.push(Key { sample, words });
         }
         if let Some((combination, edge)) = self.governing() {

@@ -6,6 +6,7 @@ use super::manifest::{Counts, Manifest, Status};
 use crate::config::Config;
 use crate::evolve::Violation;
 use crate::mesh::canonical::Code;
+use crate::objectives::GOVERNING;
 use crate::search::{Breeding, EvaluatedRow, GenerationRow, Snapshot};
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -265,8 +266,16 @@ pub(super) fn row(record: Record<'_>, columns: &Columns) -> Result<EvaluatedRow,
         reason: if in_history { record.text(reason)?.into() } else { "".into() },
         objectives: objectives.into_iter().collect::<Option<Vec<f64>>>().unwrap_or_default().into(),
         metrics: record.numbers(&columns.metrics)?.into_iter().collect(),
+        governing: governing(&record),
         structural: false,
     })
+}
+
+/// The combinations that govern; none where an older version wrote none.
+fn governing(record: &Record<'_>) -> Box<[Box<str>]> {
+    let named: Vec<Box<str>> =
+        GOVERNING.iter().map(|(column, _)| record.text(column).unwrap_or_default().into()).collect();
+    if named.iter().all(|name| name.is_empty()) { Box::default() } else { named.into() }
 }
 
 fn generation(record: Record<'_>, columns: &Columns) -> Result<GenerationRow, LoadError> {

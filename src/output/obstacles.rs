@@ -135,6 +135,7 @@ mod tests {
             reason: reason.into(),
             objectives: Vec::new().into(),
             metrics: Vec::new().into_iter().collect(),
+            governing: Box::default(),
             structural: false,
         }
     }

@@ -92,6 +92,8 @@ pub struct Evaluation {
     /// All metrics in the order of the registry; `None` where a value does not exist. The same length always, or
     /// empty.
     pub metrics: Vec<Option<f64>>,
+    /// The combinations of loads that govern, in the order of the registry; empty where the structure was not analysed.
+    pub governing: Vec<String>,
     /// Whether the structure was analysed: this is what a budget of `evaluations` counts.
     pub structural: bool,
 }
@@ -100,7 +102,14 @@ impl Evaluation {
     /// A design that could not be evaluated: panic, error, or values that are not finite.
     pub fn failed(reason: impl Into<String>, structural: bool) -> Self {
         let violation = Violation::new(FAILED, 0.0);
-        Self { violation, reason: reason.into(), objectives: Vec::new(), metrics: Vec::new(), structural }
+        Self {
+            violation,
+            reason: reason.into(),
+            objectives: Vec::new(),
+            metrics: Vec::new(),
+            governing: Vec::new(),
+            structural,
+        }
     }
 
     /// The evaluation as the search takes it: nothing in it is NaN or infinite, objectives are rounded, and a
@@ -111,7 +120,11 @@ impl Evaluation {
         if !finite || (self.violation.is_feasible() && self.objectives.len() != objectives) {
             let found = if finite { "missing" } else { "not finite" };
             let reason = format!("an objective is {found}");
-            return Self { metrics: finite_only(self.metrics), ..Self::failed(reason, self.structural) };
+            return Self {
+                metrics: finite_only(self.metrics),
+                governing: self.governing,
+                ..Self::failed(reason, self.structural)
+            };
         }
         if !self.violation.measure.is_finite() {
             self.violation = Violation::new(FAILED, 0.0);
@@ -207,6 +220,7 @@ mod tests {
             reason: String::new(),
             objectives: vec![1.0, 2.0],
             metrics: vec![Some(f64::NAN), Some(3.0), None],
+            governing: vec![],
             structural: true,
         };
         assert_eq!(good.clone().sanitised(2).metrics, [None, Some(3.0), None]);

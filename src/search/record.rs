@@ -28,6 +28,8 @@ pub struct EvaluatedRow {
     pub objectives: Box<[f64]>,
     /// All metrics in the order of the registry; empty where none exists.
     pub metrics: Metrics,
+    /// The combinations of loads that govern, in the order of the registry; empty where the structure was not analysed.
+    pub governing: Box<[Box<str>]>,
     /// Whether the structure was analysed.
     pub structural: bool,
 }
@@ -50,6 +52,7 @@ impl EvaluatedRow {
             reason: self.reason.to_string(),
             objectives: self.objectives.to_vec(),
             metrics: self.metrics.iter().collect(),
+            governing: self.governing.iter().map(|name| name.to_string()).collect(),
             structural: self.structural,
         }
     }

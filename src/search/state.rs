@@ -233,6 +233,7 @@ fn row_of(generation: u32, slot: usize, child: &Child, evaluation: Evaluation) -
         reason: evaluation.reason.into(),
         objectives: evaluation.objectives.into(),
         metrics: evaluation.metrics.into_iter().collect(),
+        governing: evaluation.governing.into_iter().map(String::into_boxed_str).collect(),
         structural: evaluation.structural,
     }
 }

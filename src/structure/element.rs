@@ -136,11 +136,63 @@ impl Ends {
         Self { shift: at(u1, 0) - at(u2, 0), r1: at(u1, 3), r2: at(u2, 3) }
     }
 
+    /// Reads them in local axes from a vector of unknowns in two parts, as if with twice the digits: an elongation is
+    /// what is left of displacements that may be a million times larger, and what of them is lost is a large force.
+    pub fn local_of(u: &[f64], rest: &[f64], start: usize, end: usize, axes: &Frame3) -> Self {
+        let part = |from: usize| Precise::read(u, rest, from);
+        let turn = |v: &Precise| Vector3::new(v.along(&axes.x), v.along(&axes.y), v.along(&axes.z));
+        Self {
+            shift: turn(&part(start).less(&part(end))),
+            r1: turn(&part(start + 3)),
+            r2: turn(&part(end + 3)),
+        }
+    }
+
     /// The same in local axes.
     pub fn local(&self, axes: &Frame3) -> Self {
         let turn = |v: &Vector3<f64>| Vector3::new(axes.x.dot(v), axes.y.dot(v), axes.z.dot(v));
         Self { shift: turn(&self.shift), r1: turn(&self.r1), r2: turn(&self.r2) }
     }
+}
+
+/// A vector in two parts, the second of which is what rounding leaves out of the first.
+#[derive(Clone, Copy)]
+struct Precise {
+    whole: [f64; 3],
+    rest: [f64; 3],
+}
+
+impl Precise {
+    fn read(u: &[f64], rest: &[f64], from: usize) -> Self {
+        Self { whole: std::array::from_fn(|i| u[from + i]), rest: std::array::from_fn(|i| rest[from + i]) }
+    }
+
+    fn less(&self, other: &Self) -> Self {
+        let differences = std::array::from_fn::<_, 3, _>(|i| sum(self.whole[i], -other.whole[i]));
+        Self {
+            whole: differences.map(|(whole, _)| whole),
+            rest: std::array::from_fn(|i| differences[i].1 + (self.rest[i] - other.rest[i])),
+        }
+    }
+
+    /// Its product with an axis: a dot product with compensation (Ogita, Rump, Oishi 2005).
+    fn along(&self, axis: &Vector3<f64>) -> f64 {
+        let (mut whole, mut rest) = (0.0, 0.0);
+        for i in 0..3 {
+            let product = axis[i] * self.whole[i];
+            let (total, lost) = sum(whole, product);
+            rest += lost + axis[i].mul_add(self.whole[i], -product) + axis[i] * self.rest[i];
+            whole = total;
+        }
+        whole + rest
+    }
+}
+
+/// a + b, and what rounding leaves out of it (Knuth).
+fn sum(a: f64, b: f64) -> (f64, f64) {
+    let total = a + b;
+    let part = total - a;
+    (total, (a - (total - part)) + (b - part))
 }
 
 /// What an element does on its nodes: force on the start (the end has the opposite) and the two moments.

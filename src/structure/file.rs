@@ -1,12 +1,13 @@
-//! The model file that `quadrille frame` reads, and the JSON it prints.
+//! The model file that `quadrille frame` reads, and the JSON it prints; docs/frame.md describes both.
 
 use super::forces::{Resultants, Utilisation};
-use super::frame::{FrameAnalysis, FrameError, FrameResult};
+use super::frame::{FrameAnalysis, FrameError, FrameResult, Order};
 use super::model::{
     FrameModel, FrameParts, LoadCase, Material, Member, ModelError, NodalLoad, Support, UniformLoad,
 };
 use super::section::{Section, SectionError};
 use crate::json::{self, JsonError};
+use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 /// Why a model file is refused.
@@ -33,7 +34,7 @@ pub enum FileError {
 const MOST_MODES: u32 = 1000;
 
 #[derive(Deserialize)]
-#[serde(expecting = "an object with the keys material, section, nodes and members")]
+#[serde(deny_unknown_fields, expecting = "an object with the keys material, section, nodes and members")]
 struct File {
     material: FileMaterial,
     section: FileSection,
@@ -47,10 +48,23 @@ struct File {
     loads: FileLoads,
     #[serde(default)]
     analysis: FileAnalysis,
+    // For people, and for tests: not read.
+    #[serde(default, rename = "name")]
+    _name: IgnoredAny,
+    #[serde(default, rename = "description")]
+    _description: IgnoredAny,
+    #[serde(default, rename = "source")]
+    _source: IgnoredAny,
+    #[serde(default, rename = "expected")]
+    _expected: IgnoredAny,
+    #[serde(default, rename = "tolerance")]
+    _tolerance: IgnoredAny,
+    #[serde(default, rename = "verification")]
+    _verification: IgnoredAny,
 }
 
 #[derive(Deserialize)]
-#[serde(expecting = "an object with the keys E, G, density and fy")]
+#[serde(deny_unknown_fields, expecting = "an object with the keys E, G, density and fy")]
 struct FileMaterial {
     #[serde(rename = "E")]
     e: f64,
@@ -61,7 +75,7 @@ struct FileMaterial {
 }
 
 #[derive(Deserialize)]
-#[serde(tag = "kind", rename_all = "kebab-case")]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 enum FileSection {
     Properties(Properties),
     Box { width: f64, height: f64, thickness: f64 },
@@ -70,6 +84,7 @@ enum FileSection {
 }
 
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 #[expect(non_snake_case, reason = "the names of the file format, which are the engineer's symbols")]
 struct Properties {
     A: f64,
@@ -87,7 +102,7 @@ struct Properties {
 }
 
 #[derive(Deserialize)]
-#[serde(expecting = "an object with the keys start, end and up")]
+#[serde(deny_unknown_fields, expecting = "an object with the keys start, end and up")]
 struct FileMember {
     start: u32,
     end: u32,
@@ -95,14 +110,18 @@ struct FileMember {
 }
 
 #[derive(Deserialize)]
-#[serde(expecting = "an object with the keys node and fixed")]
+#[serde(deny_unknown_fields, expecting = "an object with the keys node and fixed")]
 struct FileSupport {
     node: u32,
     fixed: [bool; 6],
 }
 
 #[derive(Deserialize, Default)]
-#[serde(default, expecting = "an object with the keys nodal, member_uniform and gravity, or some of them")]
+#[serde(
+    default,
+    deny_unknown_fields,
+    expecting = "an object with the keys nodal, member_uniform and gravity, or some of them"
+)]
 struct FileLoads {
     nodal: Vec<FileNodal>,
     member_uniform: Vec<FileUniform>,
@@ -110,7 +129,7 @@ struct FileLoads {
 }
 
 #[derive(Deserialize)]
-#[serde(expecting = "an object with the keys node, force and moment")]
+#[serde(deny_unknown_fields, expecting = "an object with the keys node, force and moment")]
 struct FileNodal {
     node: u32,
     #[serde(default)]
@@ -120,14 +139,14 @@ struct FileNodal {
 }
 
 #[derive(Deserialize)]
-#[serde(expecting = "an object with the keys member and force_per_length")]
+#[serde(deny_unknown_fields, expecting = "an object with the keys member and force_per_length")]
 struct FileUniform {
     member: u32,
     force_per_length: [f64; 3],
 }
 
 #[derive(Deserialize)]
-#[serde(default, expecting = "an object with the keys order and buckling_modes")]
+#[serde(default, deny_unknown_fields, expecting = "an object with the keys order and buckling_modes")]
 struct FileAnalysis {
     order: u64,
     buckling_modes: u32,
@@ -139,15 +158,15 @@ impl Default for FileAnalysis {
     }
 }
 
-/// Reads a model and what to analyse from JSON text. Keys it does not know are ignored.
+/// Reads a model and what to analyse from JSON text. A key it does not know is an error.
 ///
 /// # Errors
 /// See [`FileError`].
 pub fn read(text: &str) -> Result<(FrameModel, FrameAnalysis), FileError> {
     let file: File = json::read(text)?;
     let order = match file.analysis.order {
-        1 => 1,
-        2 => 2,
+        1 => Order::First,
+        2 => Order::Second,
         other => return Err(FileError::Order(other)),
     };
     if file.analysis.buckling_modes > MOST_MODES {
@@ -221,6 +240,7 @@ struct Answer<'a> {
     utilisation_at_member_ends: Option<f64>,
     utilisation_with_inner: Option<f64>,
     utilisation_von_mises: Option<f64>,
+    remarks: Vec<&'static str>,
 }
 
 #[derive(Serialize)]
@@ -280,6 +300,7 @@ pub fn answer(result: &FrameResult) -> serde_json::Result<Vec<u8>> {
         utilisation_at_member_ends: worst(|u| u.ends),
         utilisation_with_inner: worst(|u| u.inner),
         utilisation_von_mises: worst(|u| u.von_mises),
+        remarks: result.remarks(),
     };
     let mut bytes = serde_json::to_vec(&answer)?;
     bytes.push(b'\n');
@@ -291,15 +312,16 @@ pub fn refusal(error: &FileError) -> serde_json::Value {
     serde_json::json!({ "error": "refused", "message": error.to_string() })
 }
 
-/// The JSON of a failed analysis: `error` is `singular`, `unstable`, `not finite`, `ill-conditioned` or
-/// `failed`.
+/// The JSON of a failed analysis: `error` is `singular`, `unstable`, `not converged`, `not finite`, `ill-conditioned`
+/// or `failed`.
 pub fn failure(error: &FrameError) -> serde_json::Value {
     let (kind, motion) = match error {
         FrameError::Singular(motion) => ("singular", Some(motion)),
         FrameError::Unstable(motion) => ("unstable", Some(motion)),
         FrameError::NotFinite => ("not finite", None),
-        FrameError::IllConditioned(_) => ("ill-conditioned", None),
-        FrameError::NoConvergence | FrameError::TooLarge(_) => ("failed", None),
+        FrameError::IllConditioned(_) | FrameError::NoDigits => ("ill-conditioned", None),
+        FrameError::NotSettled { .. } | FrameError::NoConvergence => ("not converged", None),
+        FrameError::TooLarge(_) => ("failed", None),
     };
     let mut value = serde_json::json!({ "error": kind, "message": error.to_string() });
     if let Some(motion) = motion {

@@ -2,7 +2,7 @@
 
 use super::element::{self, EndActions, Ends};
 use super::section::Section;
-use super::solver::Solver;
+use super::solver::{Refined, Solver};
 use nalgebra::Vector3;
 
 /// Stress resultants on the cut face whose outward normal is local +x, local axes (N, Nm); N > 0 is tension.
@@ -62,14 +62,34 @@ impl Solver<'_> {
             .collect()
     }
 
+    /// The same of displacements in two parts.
+    pub fn member_forces_of(
+        &self,
+        found: &Refined,
+        axial: Option<&[f64]>,
+        member_loads: &[Vector3<f64>],
+    ) -> Vec<MemberForces> {
+        let members = self.model().axes().iter().zip(self.system().slots()).enumerate();
+        members
+            .map(|(m, (axes, slot))| {
+                self.forces_at(m, &found.ends(slot, axes), axial.map(|a| a[m]), &member_loads[m])
+            })
+            .collect()
+    }
+
     /// The same of member `m` alone, given its N and its load.
     pub fn forces_of(&self, m: usize, u: &[f64], axial: Option<f64>, q: &Vector3<f64>) -> MemberForces {
         let axes = &self.model().axes()[m];
         let slot = self.system().slots()[m];
-        let ends = Ends::read(u, slot.start, slot.end).local(axes);
-        let EndActions { mut force, mut m1, mut m2 } = self.stiffness()[m].apply_local(&ends);
+        self.forces_at(m, &Ends::read(u, slot.start, slot.end).local(axes), axial, q)
+    }
+
+    /// The same, given its ends in local axes.
+    fn forces_at(&self, m: usize, ends: &Ends, axial: Option<f64>, q: &Vector3<f64>) -> MemberForces {
+        let axes = &self.model().axes()[m];
+        let EndActions { mut force, mut m1, mut m2 } = self.stiffness()[m].apply_local(ends);
         if let Some(tension) = axial {
-            let g = element::geometric_actions(&Vector3::x(), axes.length, tension, &ends);
+            let g = element::geometric_actions(&Vector3::x(), axes.length, tension, ends);
             force += g.force;
             m1 += g.m1;
             m2 += g.m2;

@@ -1,25 +1,40 @@
 //! A whole analysis of one model under one combination: what `quadrille frame` prints.
 
-use super::buckling::{self, Search};
+use super::buckling;
 use super::forces::{MemberForces, Utilisation};
 use super::mechanism::{self, FreeMotion};
 use super::model::{FrameModel, MemberId, NodeId};
-use super::second_order::Unstable;
-use super::solver::{Combination, Solver};
+use super::second_order::{LeastStep, Lost, Reason};
+use super::solver::{Combination, Refined, Solver, Unsound};
 use super::system::{DOFS, System, TooLarge};
 use nalgebra::Vector3;
+
+/// Whether equilibrium is that of the undeformed or of the deformed structure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Order {
+    /// K u = f.
+    First = 1,
+    /// (K + Kg(N)) u = f.
+    Second = 2,
+}
 
 /// What to analyse.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FrameAnalysis {
-    /// 1 = first order, 2 = second order.
-    pub order: u8,
+    /// First or second order.
+    pub order: Order,
     /// How many buckling factors.
     pub buckling_modes: usize,
 }
 
 /// Change of the axial forces, relative to the largest, at which second order has converged.
 const SECOND_ORDER_TOLERANCE: f64 = 1e-11;
+
+/// How closely a critical load is told: a critical load this near above is taken for one below.
+const LEAST_STEP: LeastStep = LeastStep(1.0 / 4096.0);
+
+/// Residual of a mode that is only to name what gives way.
+pub const NAMING: f64 = 1e-4;
 
 /// Out of balance by more than this share of the largest force, an answer is none.
 const BALANCE: f64 = 1e-7;
@@ -41,9 +56,17 @@ pub struct FrameResult {
     pub total_reaction: [f64; 3],
     /// Positive buckling factors, ascending; at most as many as asked for.
     pub buckling_factors: Vec<f64>,
-    /// 1 or 2: decides which utilisation counts.
-    pub order: u8,
+    /// Decides which utilisation counts.
+    pub order: Order,
+    /// How many buckling factors were asked for.
+    pub modes_asked: usize,
+    /// Whether more strain energy is in bending than in tension and compression.
+    pub bending_dominates: bool,
 }
+
+/// Said where no factor was found although bending dominates.
+const NO_LATERAL: &str = "bending dominates and no buckling factor of the axial forces was found: lateral-torsional \
+    buckling, that of bending moments, is outside the model";
 
 /// Why there is no answer.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -54,6 +77,12 @@ pub enum FrameError {
     /// Past its critical load in second order.
     #[error("unstable: past its critical load; {} gives way in {:?}", .0.node, .0.direction)]
     Unstable(FreeMotion),
+    /// Neither an equilibrium in second order nor a reason to call it unstable was found.
+    #[error("the second-order iteration did not converge beyond {:.3} of the load (the structure is not known to be unstable)", .share)]
+    NotSettled {
+        /// The share of the load up to which there is an answer.
+        share: f64,
+    },
     /// The numbers overflow.
     #[error("the result is not finite: stiffness or loads are too large or too small to compute with")]
     NotFinite,
@@ -62,17 +91,24 @@ pub enum FrameError {
         "ill-conditioned: the free nodes are out of balance by {0:e} of the largest force; stiffness or lengths differ too much"
     )]
     IllConditioned(f64),
-    /// No buckling factor was found within the limit of iterations.
-    #[error("the buckling iteration did not converge")]
+    /// The same, so much that there is no factor of the stiffness.
+    #[error("ill-conditioned: rounding makes the stiffness singular; stiffness or lengths differ too much")]
+    NoDigits,
+    /// No buckling factor could be told.
+    #[error("the buckling factors cannot be told: the pivots of K + λ Kg are not numbers")]
     NoConvergence,
     /// Does not fit.
     #[error(transparent)]
     TooLarge(#[from] TooLarge),
 }
 
-impl From<FreeMotion> for FrameError {
-    fn from(motion: FreeMotion) -> Self {
-        Self::Singular(motion)
+impl From<Unsound> for FrameError {
+    fn from(reason: Unsound) -> Self {
+        match reason {
+            Unsound::Mechanism(motion) => Self::Singular(motion),
+            Unsound::IllConditioned => Self::NoDigits,
+            Unsound::NotFinite => Self::NotFinite,
+        }
     }
 }
 
@@ -95,27 +131,27 @@ pub fn frame(model: &FrameModel, analysis: &FrameAnalysis) -> Result<FrameResult
     let mut f = vec![0.0; solver.system().unknowns()];
     solver.load_vector(&combination, &loads, &mut f);
     let first = solver.first_order(&f);
-    finite(&first)?;
+    finite(&first.u)?;
     balanced(solver.imbalance(&first, None, &f))?;
     let mut axial = Vec::new();
-    solver.axial_forces(&first, &mut axial);
-    silence(&solver, &first, &mut axial);
-    let search = Search { modes: analysis.buckling_modes, tolerance: 1e-8 };
-    let modes = buckling::modes(&mut solver, &axial, search)?;
-    let result = if analysis.order == 2 {
+    solver.axial_forces_of(&first, &mut axial);
+    silence(&solver, &first.u, &mut axial);
+    let buckling_factors = buckling::factors(&mut solver, &axial, analysis.buckling_modes)?;
+    let result = if analysis.order == Order::Second {
         let u = solver
-            .second_order(&f, &axial, SECOND_ORDER_TOLERANCE)
-            .map_err(|reason| unstable(&mut solver, &axial, reason))?;
-        finite(&u)?;
-        solver.axial_forces(&u, &mut axial);
+            .second_order(&f, &axial, SECOND_ORDER_TOLERANCE, LEAST_STEP)
+            .map_err(|lost| unstable(&mut solver, &first.u, &axial, lost))?;
+        finite(&u.u)?;
+        solver.axial_forces_of(&u, &mut axial);
         balanced(solver.imbalance(&u, Some(&axial), &f))?;
         collect(&solver, &u, Some(&axial), &loads, &f)
     } else {
         collect(&solver, &first, None, &loads, &f)
     };
     Ok(FrameResult {
-        buckling_factors: modes.iter().map(|m| m.factor).collect(),
+        buckling_factors,
         order: analysis.order,
+        modes_asked: analysis.buckling_modes,
         ..result
     })
 }
@@ -128,36 +164,43 @@ fn balanced(imbalance: f64) -> Result<(), FrameError> {
     if imbalance <= BALANCE { Ok(()) } else { Err(FrameError::IllConditioned(imbalance)) }
 }
 
-/// Sets axial forces to zero if all of them are rounding noise of the displacements: no load, no buckling.
+/// Sets to zero the axial forces that are rounding noise of the displacements and rotations: no force, no buckling.
 pub fn silence(solver: &Solver<'_>, u: &[f64], axial: &mut [f64]) {
-    let noise = solver.system().slots().iter().zip(solver.stiffness()).zip(axial.iter());
-    let mut moved = noise.map(|((slot, k), n)| {
-        let size = |at: usize| u[at..at + 3].iter().fold(0.0f64, |a, v| a.max(v.abs()));
-        n.abs() <= 256.0 * f64::EPSILON * k.axial * (size(slot.start) + size(slot.end))
-    });
-    if moved.all(|quiet| quiet) {
-        axial.fill(0.0);
+    let members = solver.system().slots().iter().zip(solver.stiffness()).zip(solver.model().axes());
+    for (((slot, k), axes), n) in members.zip(axial) {
+        let largest = |from: usize| u[from..from + 3].iter().fold(0.0f64, |a, v| a.max(v.abs()));
+        let moved = largest(slot.start) + largest(slot.end);
+        let turned = largest(slot.start + 3) + largest(slot.end + 3);
+        // What cancels in the equilibrium of its ends.
+        let by_turning = k.xy.couple + k.xz.couple + k.torsion / axes.length;
+        if n.abs() <= 256.0 * f64::EPSILON * (k.axial * moved + by_turning * turned) {
+            *n = 0.0;
+        }
     }
 }
 
-/// Names what gives way: the first buckling mode under the first-order axial forces.
-fn unstable(solver: &mut Solver<'_>, axial: &[f64], _: Unstable) -> FrameError {
-    let search = Search { modes: 1, tolerance: 1e-4 };
-    match buckling::modes(solver, axial, search).ok().and_then(|mut m| m.pop()) {
-        Some(mode) => FrameError::Unstable(mechanism::largest(solver.model(), solver.system(), &mode.shape)),
-        None => FrameError::NoConvergence,
-    }
+/// Names what gives way: the first buckling mode under the axial forces where the path of equilibrium ends, or, where
+/// there is none, under those of first order; else where the displacements `u` of first order are largest.
+fn unstable(solver: &mut Solver<'_>, u: &[f64], axial: &[f64], lost: Lost) -> FrameError {
+    let Lost { reason: Reason::PastCritical, axial: last, .. } = lost else {
+        return FrameError::NotSettled { share: lost.share };
+    };
+    let mode = [last.as_slice(), axial]
+        .into_iter()
+        .find_map(|axial| buckling::first(solver, axial, NAMING).ok().flatten());
+    let motion = mode.as_ref().map_or(u, |mode| &mode.shape);
+    FrameError::Unstable(mechanism::largest(solver.model(), solver.system(), motion))
 }
 
 fn collect(
     solver: &Solver<'_>,
-    u: &[f64],
+    found: &Refined,
     axial: Option<&[f64]>,
     loads: &[Vector3<f64>],
     f: &[f64],
 ) -> FrameResult {
     let model = solver.model();
-    let displacements = by_node(solver.system(), u, model.nodes().len());
+    let displacements = by_node(solver.system(), &found.u, model.nodes().len());
     let size = |d: &[f64; 6]| Vector3::new(d[0], d[1], d[2]).norm();
     let mut largest = (0.0, NodeId(0));
     for (n, d) in displacements.iter().enumerate() {
@@ -165,7 +208,8 @@ fn collect(
             largest = (size(d), NodeId(n as u32));
         }
     }
-    let pushes = by_node(solver.system(), &solver.reactions(u, axial, f), model.nodes().len());
+    let reactions: Vec<f64> = solver.residual(found, axial, f).into_iter().map(|left| -left).collect();
+    let pushes = by_node(solver.system(), &reactions, model.nodes().len());
     let reactions: Vec<(NodeId, [Option<f64>; 6])> = model
         .supported()
         .map(|node| {
@@ -179,7 +223,9 @@ fn collect(
             *total += push.unwrap_or(0.0);
         }
     }
-    let member_forces = solver.member_forces(u, axial, loads);
+    let member_forces = solver.member_forces_of(found, axial, loads);
+    let [bending, axial_energy] = energies(solver, &member_forces);
+    let bending_dominates = bending > axial_energy;
     let strength = model.material().strength;
     let member_utilisation = member_forces
         .iter()
@@ -197,8 +243,31 @@ fn collect(
         max_displacement: largest,
         total_reaction,
         buckling_factors: Vec::new(),
-        order: 1,
+        order: Order::First,
+        modes_asked: 0,
+        bending_dominates,
     }
+}
+
+/// Twice the strain energy in bending, of the ends' rotations and of the loads between them, and in tension and
+/// compression; that of torsion is neither.
+fn energies(solver: &Solver<'_>, forces: &[MemberForces]) -> [f64; 2] {
+    let model = solver.model();
+    let e = model.material().youngs_modulus;
+    let mut sum = [0.0; 2];
+    for (forces, member) in forces.iter().zip(model.members()) {
+        let section = &solver.sections()[member.section as usize];
+        // Simpson's rule, exact for the linear N and M² of a member without load between its ends.
+        for (x, weight) in [(0.0, 1.0), (0.5, 4.0), (1.0, 1.0)] {
+            let at = forces.at(x * forces.length);
+            let share = weight * forces.length / (6.0 * e);
+            let bent =
+                |moment: f64, inertia: f64| if inertia > 0.0 { moment * moment / inertia } else { 0.0 };
+            sum[0] += share * (bent(at.my, section.iy) + bent(at.mz, section.iz));
+            sum[1] += share * at.n * at.n / section.area;
+        }
+    }
+    sum
 }
 
 /// A vector in elimination order, node by node.
@@ -212,6 +281,12 @@ pub fn by_node(system: &System, u: &[f64], nodes: usize) -> Vec<[f64; 6]> {
 }
 
 impl FrameResult {
+    /// What the numbers do not say by themselves.
+    pub fn remarks(&self) -> Vec<&'static str> {
+        let silent = self.modes_asked > 0 && self.buckling_factors.is_empty() && self.bending_dominates;
+        if silent { vec![NO_LATERAL] } else { Vec::new() }
+    }
+
     /// The largest of a per-member utilisation, and the member it is of; none if no member has one.
     pub fn worst(&self, of: impl Fn(&Utilisation) -> f64) -> Option<(f64, MemberId)> {
         let known = self.member_utilisation.iter().enumerate();
@@ -222,6 +297,6 @@ impl FrameResult {
 
     /// The elastic utilisation: inner extremes count in first order, the ends in second order.
     pub fn utilisation(&self) -> Option<(f64, MemberId)> {
-        self.worst(|u| if self.order == 2 { u.ends } else { u.inner })
+        self.worst(|u| if self.order == Order::Second { u.ends } else { u.inner })
     }
 }

@@ -110,7 +110,7 @@ pub struct MaterialParams {
     /// Young's modulus E, in Pa.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub youngs_modulus_pa: f64,
-    /// Poisson's ratio ν.
+    /// Poisson's ratio ν; 0.5 is a material that keeps its volume.
     #[schemars(extend("exclusiveMinimum" = -1, "maximum" = 0.5))]
     pub poisson: f64,
     /// Density, in kg/m³.
@@ -376,6 +376,28 @@ pub enum Quantity {
     UtilisationVonMises,
     /// First positive linear buckling factor.
     BucklingFactor,
+}
+
+/// Quantities that are told of the same combinations where only one of them is limited.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Family {
+    /// Displacements.
+    Deflections,
+    /// Stresses beside the strength.
+    Utilisations,
+    /// Buckling factors.
+    Buckling,
+}
+
+impl Quantity {
+    /// What it is a kind of.
+    pub fn family(self) -> Family {
+        match self {
+            Self::Deflection | Self::DeflectionVertical => Family::Deflections,
+            Self::Utilisation | Self::UtilisationAll | Self::UtilisationVonMises => Family::Utilisations,
+            Self::BucklingFactor => Family::Buckling,
+        }
+    }
 }
 
 impl std::fmt::Display for Quantity {

@@ -5,18 +5,67 @@
 //! one factor serves several heights. Factor by factor: each step solves with K + Kg(N) of the step before; it works up
 //! to the critical load, costs a factorisation a step, and is what `frame` and the cases close to the critical load use.
 //!
+//! An iterate past the critical load proves nothing, for the first-order N may be far from those of equilibrium. So where
+//! one is met, or N does not settle, the load is followed from nothing in steps that adapt; only where no step however
+//! small goes further is the structure unstable, or the iteration at its end. Which of the two tells the state reached.
+//!
 //! That an iteration settles does not prove that K + Kg is positive definite: motions that the load does not excite
 //! are not seen. Whether it is, is for a Cholesky factorisation of K + Kg at the settled N to tell.
 
-use super::solver::Solver;
+use super::solver::{Refined, Solver};
+use nalgebra::{DMatrix, DVector};
 
-/// Why an iteration in second order gave no answer.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Unstable {
-    /// K + Kg is not positive definite.
+/// Why there is no answer in second order.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Reason {
+    /// K + Kg is not positive definite, or the displacements grow without bounds.
     PastCritical,
-    /// The axial forces did not settle.
+    /// The axial forces do not settle, though nothing says that the structure gives way.
     NoConvergence,
+}
+
+/// Where the path of equilibrium ends before the whole load is on.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Lost {
+    /// Why.
+    pub reason: Reason,
+    /// The share of the load up to which there is an answer.
+    pub share: f64,
+    /// The axial forces there, N.
+    pub axial: Vec<f64>,
+}
+
+/// The least step in which the load is followed, as a share of what is on already: how closely the critical load is told.
+/// Its square, as a share of the whole, is how small a load still counts.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct LeastStep(pub f64);
+
+/// Where the path ends, K + Kg with Kg this many steps further must be indefinite, or the displacements must grow this
+/// many times faster than at first, for the structure to be called unstable.
+const BEYOND: f64 = 4.0;
+const FASTER: f64 = 8.0;
+/// Factorisations for one equilibrium: of the whole load at once, and of a step.
+const MOST_AT_ONCE: usize = 100;
+const MOST_IN_STEP: usize = 40;
+/// Corrections of the displacements of one factorisation.
+const MOST_CORRECTIONS: usize = 4;
+/// Steps of the iteration by which the next is corrected, and the share of the largest singular value below which they
+/// count as dependent.
+const DEPTH: usize = 10;
+const INDEPENDENT: f64 = 1e-10;
+/// Tolerance of the states in between.
+const ON_THE_WAY: f64 = 1e-6;
+/// Change of the displacements in the norm of strain energy, beside the whole, that is as good as none. Unlike that of
+/// the axial forces it does not drown in rounding where N is next to nothing: EA/L times the last digit of a large
+/// displacement is a large force, but a small energy.
+const ENERGY: f64 = 1e-10;
+/// A change that shrinks less than this shrinks no more.
+const SHRINKS: f64 = 0.5;
+
+/// A state of equilibrium.
+struct State {
+    found: Refined,
+    axial: Vec<f64>,
 }
 
 /// Steps of the iteration with one factor; those that shrink the change so slowly that it would not do leave
@@ -128,37 +177,186 @@ impl Solver<'_> {
         worst
     }
 
-    /// Second order, factor by factor: (K + Kg(N)) u = f with N of u, from the `first`-order N, until N changes by no
-    /// more than `tolerance` × max |N|. The last factor proves that the answer is stable.
+    /// Second order, factor by factor: (K + Kg(N)) u = f with N of u, at once from the `first`-order N, else following
+    /// the load in steps, until N changes by no more than `tolerance` × max |N| or rounding lets it come no nearer. The
+    /// last factor proves that the answer is stable.
     ///
     /// # Errors
-    /// [`Unstable`] if K + Kg is not positive definite, or N does not settle.
-    pub fn second_order(&mut self, f: &[f64], first: &[f64], tolerance: f64) -> Result<Vec<f64>, Unstable> {
-        const MOST: usize = 200;
-        let mut axial = first.to_vec();
+    /// [`Lost`] where the path of equilibrium ends before.
+    pub fn second_order(
+        &mut self,
+        f: &[f64],
+        first: &[f64],
+        tolerance: f64,
+        least: LeastStep,
+    ) -> Result<Refined, Lost> {
+        match self.equilibrium(f, first.to_vec(), tolerance, MOST_AT_ONCE) {
+            Ok(state) => Ok(state.found),
+            Err(_) => self.follow(f, first, tolerance, least),
+        }
+    }
+
+    /// The equilibrium under a load, from a guess of N.
+    fn equilibrium(
+        &mut self,
+        f: &[f64],
+        mut axial: Vec<f64>,
+        tolerance: f64,
+        most: usize,
+    ) -> Result<State, Reason> {
         let mut next = Vec::new();
-        for _ in 0..MOST {
-            self.factorise_shifted(&axial, 1.0).map_err(|_| Unstable::PastCritical)?;
+        let (mut before, mut change_before): (Option<Vec<f64>>, f64) = (None, f64::INFINITY);
+        let mut mixing = Mixing::default();
+        for _ in 0..most {
+            self.factorise_shifted(&axial, 1.0).map_err(|_| Reason::PastCritical)?;
             let mut u = f.to_vec();
             self.solve_as_factorised(&mut u);
-            let mut residual = f.to_vec();
-            self.subtract_forces(&u, Some(&axial), &mut residual);
-            self.solve_as_factorised(&mut residual);
-            for (u, correction) in u.iter_mut().zip(&residual) {
-                *u += correction;
-            }
-            self.axial_forces(&u, &mut next);
+            let found = Refined { rest: vec![0.0; u.len()], u };
+            let found = self.refined(found, &axial, f, tolerance, &mut next);
             let largest = next.iter().fold(0.0f64, |a, n| a.max(n.abs()));
-            let change = next.iter().zip(&axial).fold(0.0f64, |a, (n, o)| a.max((n - o).abs()));
-            std::mem::swap(&mut axial, &mut next);
-            if change <= tolerance * largest {
-                return match self.factorise_shifted(&axial, 1.0) {
-                    Ok(()) => Ok(u),
-                    Err(_) => Err(Unstable::PastCritical),
-                };
+            let change = largest_difference(&next, &axial);
+            let settled = change <= tolerance * largest
+                || (change > SHRINKS * change_before
+                    && before
+                        .as_ref()
+                        .is_some_and(|before| self.is_same(&found.u, before, tolerance.max(ENERGY))));
+            if settled {
+                self.factorise_shifted(&next, 1.0).map_err(|_| Reason::PastCritical)?;
+                let mut correction = self.residual(&found, Some(&next), f);
+                self.solve_as_factorised(&mut correction);
+                // As long as it is one of rounding; else N has changed with it.
+                let refined = found.plus(&correction);
+                let found =
+                    if self.is_same(&refined.u, &found.u, tolerance.max(ENERGY)) { refined } else { found };
+                return Ok(State { found, axial: next });
+            }
+            mixing.step(&mut axial, &next);
+            (before, change_before) = (Some(found.u), change);
+        }
+        Err(Reason::NoConvergence)
+    }
+
+    /// Corrects displacements with the factor of K + Kg(N) at hand until their own axial forces, `next`, no longer change
+    /// beside the tolerance: close to the critical load, and where members are slender, once is not enough.
+    fn refined(
+        &mut self,
+        mut found: Refined,
+        axial: &[f64],
+        f: &[f64],
+        tolerance: f64,
+        next: &mut Vec<f64>,
+    ) -> Refined {
+        let mut before = Vec::new();
+        self.axial_forces_of(&found, next);
+        for _ in 0..MOST_CORRECTIONS {
+            let mut correction = self.residual(&found, Some(axial), f);
+            self.solve_as_factorised(&mut correction);
+            found = found.plus(&correction);
+            std::mem::swap(&mut before, next);
+            self.axial_forces_of(&found, next);
+            let largest = next.iter().fold(0.0f64, |a, n| a.max(n.abs()));
+            if largest_difference(next, &before) <= 0.1 * tolerance * largest {
+                break;
             }
         }
-        Err(Unstable::NoConvergence)
+        found
+    }
+
+    /// Whether two displacements differ by no more than a share of the first, in the norm of strain energy.
+    fn is_same(&self, u: &[f64], v: &[f64], share: f64) -> bool {
+        let change: Vec<f64> = u.iter().zip(v).map(|(u, v)| u - v).collect();
+        self.twice_energy(&change) <= share * share * self.twice_energy(u)
+    }
+
+    /// The load from nothing to the whole, in steps that halve where there is no equilibrium in sight.
+    fn follow(
+        &mut self,
+        f: &[f64],
+        first: &[f64],
+        tolerance: f64,
+        LeastStep(least): LeastStep,
+    ) -> Result<Refined, Lost> {
+        let scaled = |share: f64, v: &[f64]| v.iter().map(|v| share * v).collect::<Vec<f64>>();
+        let largest = |v: &[f64]| v.iter().fold(0.0f64, |a, v| a.max(v.abs()));
+        let mut share = 0.0;
+        let mut axial = vec![0.0; first.len()];
+        let mut u = vec![0.0; f.len()];
+        // How fast the displacements grow with the share: at first, and in the last step.
+        let (mut slow, mut fast) = (0.0, 0.0);
+        // How N grows with the share: at first as in first order, then as in the step before.
+        let mut growth = first.to_vec();
+        let mut step = 0.5f64;
+        loop {
+            let next = (share + step).min(1.0);
+            let guess = axial.iter().zip(&growth).map(|(n, g)| n + (next - share) * g).collect();
+            let (tolerance, most) =
+                if next == 1.0 { (tolerance, MOST_AT_ONCE) } else { (ON_THE_WAY, MOST_IN_STEP) };
+            match self.equilibrium(&scaled(next, f), guess, tolerance, most) {
+                Ok(state) if next == 1.0 => return Ok(state.found),
+                Ok(state) => {
+                    let taken = next - share;
+                    let moved: Vec<f64> = state.found.u.iter().zip(&u).map(|(u, old)| u - old).collect();
+                    fast = largest(&moved) / taken;
+                    slow = if share == 0.0 { fast } else { slow };
+                    u = state.found.u;
+                    growth = state.axial.iter().zip(&axial).map(|(n, o)| (n - o) / taken).collect();
+                    (share, axial) = (next, state.axial);
+                    step = (1.5 * taken).min(1.0 - share);
+                }
+                Err(_) if step > least * share.max(least) => step *= 0.5,
+                Err(_) => {
+                    // At a limit point they grow without bounds, at a bifurcation K + Kg loses its definiteness.
+                    let ahead: Vec<f64> =
+                        axial.iter().zip(&growth).map(|(n, g)| n + BEYOND * step * g).collect();
+                    let gives_way = share == 0.0 || fast > FASTER * slow || !self.is_definite(&ahead, 1.0);
+                    let reason = if gives_way { Reason::PastCritical } else { Reason::NoConvergence };
+                    return Err(Lost { reason, share, axial });
+                }
+            }
+        }
+    }
+}
+
+fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).fold(0.0, |largest, (a, b)| largest.max((a - b).abs()))
+}
+
+/// The last steps of an iteration N ← g(N), oldest first.
+#[derive(Default)]
+struct Mixing {
+    /// g(N) and g(N) − N.
+    steps: Vec<(DVector<f64>, DVector<f64>)>,
+}
+
+impl Mixing {
+    /// N ← g(N), `image`; corrected so that the change, if g were linear, would be least (Anderson 1965): as Newton's
+    /// method would, which for this g is not symmetric.
+    fn step(&mut self, axial: &mut Vec<f64>, image: &[f64]) {
+        let image = DVector::from_column_slice(image);
+        let change = &image - DVector::from_column_slice(axial);
+        self.steps.push((image, change));
+        if self.steps.len() > DEPTH + 1 {
+            self.steps.remove(0);
+        }
+        let last = self.steps.len() - 1;
+        let (image, change) = &self.steps[last];
+        let differences: Vec<DVector<f64>> = self.steps.windows(2).map(|w| &w[1].1 - &w[0].1).collect();
+        // Scaled to unit length, so that old steps, which were longer, do not drown the new ones.
+        let sizes: Vec<f64> = differences.iter().map(|d| d.norm().max(f64::MIN_POSITIVE)).collect();
+        let product = |i: usize, j: usize| differences[i].dot(&differences[j]) / (sizes[i] * sizes[j]);
+        let right = DVector::from_fn(last, |i, _| differences[i].dot(change) / sizes[i]);
+        let products = DMatrix::from_fn(last, last, product);
+        let mut next = image.clone();
+        if last > 0
+            && products.iter().chain(&right).all(|v| v.is_finite())
+            && let Ok(inverse) = products.pseudo_inverse(INDEPENDENT)
+        {
+            for (i, share) in (inverse * right).iter().enumerate() {
+                next -= (&self.steps[i + 1].0 - &self.steps[i].0) * (share / sizes[i]);
+            }
+        }
+        axial.clear();
+        axial.extend_from_slice(next.as_slice());
     }
 }
 

@@ -174,7 +174,7 @@ impl Section {
     }
 
     /// Checks that every property is a number that stiffness and stress can be computed from. Zero means: not given
-    /// (W), rigid (shear areas), or none (I, J: a motion it alone resists is then a mechanism).
+    /// (W), rigid (shear areas), or none (I, J: a motion that it alone would resist is then a mechanism).
     ///
     /// # Errors
     /// A not positive, or another property negative or not finite.
@@ -193,6 +193,11 @@ impl Section {
             None => Ok(()),
             Some((name, value)) => Err(SectionError::Negative { name, value }),
         }
+    }
+
+    /// Whether it resists bending both ways and torsion (A it always has).
+    pub fn resists_all(&self) -> bool {
+        self.iy > 0.0 && self.iz > 0.0 && self.j > 0.0
     }
 
     /// Whether its elastic moduli are known, so that stresses can be given.

@@ -11,9 +11,9 @@
 use super::element::{self, EndActions, Ends, Stiffness};
 use super::factor::{Factor, NotPositive};
 use super::mechanism::{self, FreeMotion};
-use super::model::FrameModel;
+use super::model::{Frame3, FrameModel};
 use super::section::Section;
-use super::system::{DOFS, System, TooLarge};
+use super::system::{DOFS, Slot, System, TooLarge};
 use nalgebra::Vector3;
 use nalgebra_sparse::CscMatrix;
 
@@ -36,6 +36,31 @@ pub struct Solver<'m> {
     factored: Factored,
 }
 
+/// Displacements in two parts, of which the second is what rounding leaves out of the first. Where elements are short
+/// and stiff, the last digit of a displacement is a large force: forces are those of both.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Refined {
+    /// The displacements, in elimination order.
+    pub u: Vec<f64>,
+    /// What is left out of them.
+    pub rest: Vec<f64>,
+}
+
+impl Refined {
+    /// The ends of a member in its local axes.
+    pub fn ends(&self, slot: &Slot, axes: &Frame3) -> Ends {
+        Ends::local_of(&self.u, &self.rest, slot.start, slot.end, axes)
+    }
+
+    /// The sum with a correction.
+    pub fn plus(&self, correction: &[f64]) -> Self {
+        let small: Vec<f64> = self.rest.iter().zip(correction).map(|(rest, c)| rest + c).collect();
+        let u: Vec<f64> = self.u.iter().zip(&small).map(|(u, s)| u + s).collect();
+        let rest = self.u.iter().zip(&u).zip(&small).map(|((old, new), s)| s - (new - old)).collect();
+        Self { u, rest }
+    }
+}
+
 /// What the factor is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Factored {
@@ -45,6 +70,17 @@ enum Factored {
     Stiffness,
     /// Another positive definite matrix: K + s Kg, or one with former sections.
     Other,
+}
+
+/// Why a stiffness cannot be used.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Unsound {
+    /// Something moves freely.
+    Mechanism(FreeMotion),
+    /// Nothing does, but rounding has used up all digits.
+    IllConditioned,
+    /// The numbers overflow.
+    NotFinite,
 }
 
 impl<'m> Solver<'m> {
@@ -91,8 +127,8 @@ impl<'m> Solver<'m> {
     /// Assembles and factorises the stiffness with these sections (one for each of the model's).
     ///
     /// # Errors
-    /// The motion that costs (next to) nothing, if there is one.
-    pub fn set_sections(&mut self, sections: &[Section]) -> Result<(), FreeMotion> {
+    /// [`Unsound`].
+    pub fn set_sections(&mut self, sections: &[Section]) -> Result<(), Unsound> {
         self.use_sections(sections);
         self.assemble();
         let factored = self.refactorise();
@@ -103,6 +139,16 @@ impl<'m> Solver<'m> {
         if !suspicious {
             return Ok(());
         }
+        if self.matrix.iter().any(|v| !v.is_finite()) {
+            return Err(Unsound::NotFinite);
+        }
+        if let Some(motion) = mechanism::rigid_motion(self.model, &self.system) {
+            return Err(Unsound::Mechanism(motion));
+        }
+        // Members that resist every motion, joined rigidly and held, are no mechanism, however soft.
+        if self.sections.iter().all(Section::resists_all) {
+            return factored.map_err(|_| Unsound::IllConditioned);
+        }
         self.factored = Factored::Nothing;
         match mechanism::free_motion(
             self.model,
@@ -111,9 +157,9 @@ impl<'m> Solver<'m> {
             &self.matrix,
             &mut self.factor,
         ) {
-            Some(motion) => Err(motion),
+            Some(motion) => Err(Unsound::Mechanism(motion)),
             // The search for a free motion has used the factor's room.
-            None => self.refactorise().map_err(|e| mechanism::named(&self.system, e.unknown)),
+            None => self.refactorise().map_err(|_| Unsound::IllConditioned),
         }
     }
 
@@ -219,33 +265,42 @@ impl<'m> Solver<'m> {
         self.factor.solve(&self.system, rhs);
     }
 
-    /// First order: K u = f, refined with the residual of the elements' own end forces: once for a sound model, a few
-    /// times more for a badly scaled one.
-    pub fn first_order(&mut self, f: &[f64]) -> Vec<f64> {
-        const MOST: usize = 6;
+    /// First order: K u = f, refined with the residual of the elements' own end forces: once for a sound model, more
+    /// often for a badly scaled one, until the nodes are in balance or come no nearer to it.
+    pub fn first_order(&mut self, f: &[f64]) -> Refined {
+        const MOST: usize = 12;
         const SMALL: f64 = 1e-10;
         let mut u = f.to_vec();
         self.solve(&mut u);
-        let mut residual = Vec::new();
+        let mut found = Refined { rest: vec![0.0; u.len()], u };
+        let mut imbalance = f64::INFINITY;
         for _ in 0..MOST {
-            residual.clear();
-            residual.extend_from_slice(f);
-            self.subtract_forces(&u, None, &mut residual);
-            self.solve(&mut residual);
-            u.iter_mut().zip(&residual).for_each(|(u, correction)| *u += correction);
-            let largest = |v: &[f64]| v.iter().fold(0.0f64, |a, v| a.max(v.abs()));
-            if largest(&residual) <= SMALL * largest(&u) {
+            let mut correction = self.residual(&found, None, f);
+            self.solve(&mut correction);
+            let better = found.plus(&correction);
+            let left = self.imbalance(&better, None, f);
+            if left >= imbalance {
+                break;
+            }
+            (found, imbalance) = (better, left);
+            if left <= SMALL {
                 break;
             }
         }
-        u
+        found
+    }
+
+    /// f − (K + Kg(N)) u.
+    pub fn residual(&self, found: &Refined, axial: Option<&[f64]>, f: &[f64]) -> Vec<f64> {
+        let mut left = f.to_vec();
+        self.subtract_forces_of(|slot, axes| found.ends(slot, axes), axial, &mut left);
+        left
     }
 
     /// How far the free nodes are from equilibrium: the largest force left over, relative to the largest force on a
     /// node, and the same for moments; the worse of the two.
-    pub fn imbalance(&self, u: &[f64], axial: Option<&[f64]>, f: &[f64]) -> f64 {
-        let mut left = f.to_vec();
-        self.subtract_forces(u, axial, &mut left);
+    pub fn imbalance(&self, found: &Refined, axial: Option<&[f64]>, f: &[f64]) -> f64 {
+        let left = self.residual(found, axial, f);
         let mut worst = [0.0f64; 2];
         let mut scale = [0.0f64; 2];
         for (i, (left, f)) in left.iter().zip(f).enumerate() {
@@ -267,8 +322,19 @@ impl<'m> Solver<'m> {
 
     /// r −= (K + Kg(N)) u, element by element.
     pub fn subtract_forces(&self, u: &[f64], axial: Option<&[f64]>, r: &mut [f64]) {
+        self.subtract_forces_of(|slot, axes| Ends::read(u, slot.start, slot.end).local(axes), axial, r);
+    }
+
+    /// The same, given the ends of each member in its local axes.
+    #[inline]
+    fn subtract_forces_of(
+        &self,
+        ends: impl Fn(&Slot, &Frame3) -> Ends,
+        axial: Option<&[f64]>,
+        r: &mut [f64],
+    ) {
         for (m, (axes, slot)) in self.model.axes().iter().zip(self.system.slots()).enumerate() {
-            let ends = Ends::read(u, slot.start, slot.end).local(axes);
+            let ends = ends(slot, axes);
             let mut actions = self.stiffness[m].apply_local(&ends);
             if let Some(axial) = axial {
                 let g = element::geometric_actions(&Vector3::x(), axes.length, axial[m], &ends);
@@ -283,6 +349,16 @@ impl<'m> Solver<'m> {
         }
     }
 
+    /// Twice the strain energy of displacements, from the deformations of the elements.
+    pub fn twice_energy(&self, u: &[f64]) -> f64 {
+        let members = self.model.axes().iter().zip(self.system.slots()).zip(&self.stiffness);
+        members
+            .map(|((axes, slot), k)| {
+                k.twice_energy(&Ends::read(u, slot.start, slot.end).local(axes), axes.length)
+            })
+            .sum()
+    }
+
     /// The mean axial force N of each member (tension positive): EA/L times the linear elongation.
     pub fn axial_forces(&self, u: &[f64], axial: &mut Vec<f64>) {
         axial.clear();
@@ -292,6 +368,14 @@ impl<'m> Solver<'m> {
             let stretch = Vector3::new(u[e] - u[s], u[e + 1] - u[s + 1], u[e + 2] - u[s + 2]);
             k.axial * axes.x.dot(&stretch)
         }));
+    }
+
+    /// The same of displacements in two parts.
+    pub fn axial_forces_of(&self, found: &Refined, axial: &mut Vec<f64>) {
+        axial.clear();
+        let members = self.model.axes().iter().zip(self.system.slots()).zip(&self.stiffness);
+        // The shift is that of the start less that of the end.
+        axial.extend(members.map(|((axes, slot), k)| -k.axial * found.ends(slot, axes).shift.x));
     }
 
     /// y = −Kg(N) x, for several columns, without a matrix.
@@ -313,6 +397,13 @@ impl<'m> Solver<'m> {
     /// # Errors
     /// [`NotPositive`] if it is not positive definite, that is (with N fixed) if s is past the critical factor.
     pub fn factorise_shifted(&mut self, axial: &[f64], s: f64) -> Result<(), NotPositive> {
+        self.assemble_shifted(axial, s);
+        let outcome = self.factor.factorise(&self.system, &self.shifted);
+        self.factored = if outcome.is_ok() { Factored::Other } else { Factored::Nothing };
+        outcome
+    }
+
+    fn assemble_shifted(&mut self, axial: &[f64], s: f64) {
         self.assemble();
         self.shifted.clear();
         self.shifted.extend_from_slice(&self.matrix);
@@ -320,9 +411,21 @@ impl<'m> Solver<'m> {
             self.system.add(&mut self.shifted, m, &element::geometric(axes), s * axial[m]);
         }
         self.system.hold(&mut self.shifted, 1.0);
-        let outcome = self.factor.factorise(&self.system, &self.shifted);
-        self.factored = if outcome.is_ok() { Factored::Other } else { Factored::Nothing };
-        outcome
+    }
+
+    /// Whether K + s Kg(N) is positive definite: whether no factor lies below s. The factor then is of nothing.
+    pub fn is_definite(&mut self, axial: &[f64], s: f64) -> bool {
+        let definite = self.factorise_shifted(axial, s).is_ok();
+        self.factored = Factored::Nothing;
+        definite
+    }
+
+    /// How many factors λ of (K + λ Kg(N)) φ = 0 lie between 0 and s: the negative pivots of K + s Kg. The factor then
+    /// is of nothing. None if a pivot is not a number.
+    pub fn factors_below(&mut self, axial: &[f64], s: f64) -> Option<usize> {
+        self.assemble_shifted(axial, s);
+        self.factored = Factored::Nothing;
+        self.factor.negative_pivots(&self.system, &self.shifted)
     }
 
     /// K with the held unknowns taken out (diagonal 1), assembled.

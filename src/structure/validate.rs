@@ -47,8 +47,8 @@ impl StructureParams {
     fn check_material(&self, problems: &mut Problems) {
         let m = &self.material;
         positive(problems, "material.youngs_modulus_pa", m.youngs_modulus_pa);
-        if !(m.poisson > -1.0 && m.poisson < 0.5) {
-            let message = format!("{} must lie between -1 and 0.5, both excluded", m.poisson);
+        if !(m.poisson > -1.0 && m.poisson <= 0.5) {
+            let message = format!("{} must be greater than -1 and at most 0.5", m.poisson);
             problems.push(("material.poisson".into(), message));
         }
         at_least_zero(problems, "material.density_kg_m3", m.density_kg_m3);

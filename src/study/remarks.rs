@@ -13,10 +13,16 @@ const LONG: f64 = 0.6;
 impl Study {
     /// Things that are allowed but seldom meant, in words.
     pub fn warnings(&self) -> Vec<String> {
-        [self.free_directions(), self.vast_domain(), self.vast_surface(), self.long_members()]
-            .into_iter()
-            .flatten()
-            .collect()
+        [
+            self.free_directions(),
+            self.unchecked_combinations(),
+            self.vast_domain(),
+            self.vast_surface(),
+            self.long_members(),
+        ]
+        .into_iter()
+        .flatten()
+        .collect()
     }
 
     /// Directions that no support holds.
@@ -28,6 +34,21 @@ impl Study {
         let names: Vec<String> = free.map(Direction::name).collect();
         (!names.is_empty()).then(|| {
             format!("structure.support: nothing fixes {}: every design is a mechanism", names.join(", "))
+        })
+    }
+
+    /// Combinations that no requirement names: they have no say in what is feasible.
+    fn unchecked_combinations(&self) -> Option<String> {
+        let structure = self.structure.as_ref().filter(|structure| !structure.requirements.is_empty())?;
+        let checked = |name: &String| structure.requirements.iter().any(|r| r.combination == *name);
+        let names: Vec<&str> =
+            structure.combinations.keys().filter(|name| !checked(name)).map(String::as_str).collect();
+        (!names.is_empty()).then(|| {
+            format!(
+                "structure.combinations: no [[structure.requirement]] names {}: nothing is checked there, and a design that \
+                 fails there counts as feasible",
+                names.join(", ")
+            )
         })
     }
 

@@ -217,6 +217,45 @@ pub fn renumbered(parts: &FrameParts, seed: u32) -> (FrameParts, Vec<usize>) {
     (other, place)
 }
 
+/// Columns 3 m high, 2 m apart, fixed at their feet; the c-th carries 1e5 (1 + `epsilon` c) N. With `epsilon` 0 every
+/// buckling factor comes 2 × `count` times.
+pub fn columns(count: u32, elements: u32, epsilon: f64) -> FrameParts {
+    let mut parts = FrameParts {
+        nodes: Vec::new(),
+        members: Vec::new(),
+        sections: vec![Section {
+            area: 1e-2,
+            iy: 8e-6,
+            iz: 8e-6,
+            j: 1.4e-5,
+            wy: 1e-4,
+            wz: 1e-4,
+            asy: 0.0,
+            asz: 0.0,
+            shear: None,
+        }],
+        material: steel(),
+        shear_deformation: false,
+        supports: Vec::new(),
+        load_cases: vec![LoadCase::default()],
+    };
+    for c in 0..count {
+        let base = parts.nodes.len() as u32;
+        let height = |k: u32| 3.0 * f64::from(k) / f64::from(elements);
+        parts.nodes.extend((0..=elements).map(|k| [2.0 * f64::from(c), 0.0, height(k)]));
+        parts.members.extend((0..elements).map(|k| Member {
+            start: base + k,
+            end: base + k + 1,
+            up: [1.0, 0.0, 0.0],
+            section: 0,
+        }));
+        parts.supports.push(Support { node: base, fixed: [true; 6] });
+        let load = [0.0, 0.0, -1e5 * (1.0 + epsilon * f64::from(c)), 0.0, 0.0, 0.0];
+        parts.load_cases[0].nodal.push(NodalLoad { node: base + elements, load });
+    }
+    parts
+}
+
 /// A straight member of 5 m, box 100 × 180 × 6 mm, in several elements.
 pub struct Bend {
     /// Number of elements.

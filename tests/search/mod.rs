@@ -92,6 +92,7 @@ impl Problem for Counting {
                     reason: String::new(),
                     objectives: vec![f64::NAN; self.objectives],
                     metrics: vec![Some(f64::NAN)],
+                    governing: vec![],
                     structural: true,
                 };
             }
@@ -99,7 +100,14 @@ impl Problem for Counting {
             _ => {}
         }
         if let Some((violation, reason)) = identity.rejected {
-            return Evaluation { violation, reason, objectives: vec![], metrics: vec![], structural: false };
+            return Evaluation {
+                violation,
+                reason,
+                objectives: vec![],
+                metrics: vec![],
+                governing: vec![],
+                structural: false,
+            };
         }
         let all = [
             (t - 6.0).powi(2) + 0.3 * p + 0.1 * a,
@@ -116,6 +124,7 @@ impl Problem for Counting {
             reason,
             objectives: all[..self.objectives].to_vec(),
             metrics: [Some(t), None, Some(p / 3.0)].into_iter().cycle().take(self.metrics).collect(),
+            governing: vec![],
             structural: true,
         }
     }

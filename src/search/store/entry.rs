@@ -30,6 +30,8 @@ pub(super) struct Entry {
     reason: String,
     objectives: Vec<f64>,
     metrics: Vec<Option<f64>>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    governing: Vec<String>,
     structural: bool,
 }
 
@@ -53,6 +55,7 @@ impl Entry {
             reason: evaluation.reason,
             objectives: evaluation.objectives,
             metrics: evaluation.metrics,
+            governing: evaluation.governing,
             structural: evaluation.structural,
         }
     }
@@ -63,6 +66,7 @@ impl Entry {
             reason: self.reason,
             objectives: self.objectives,
             metrics: self.metrics,
+            governing: self.governing,
             structural: self.structural,
         };
         (self.code, evaluation)
@@ -83,6 +87,7 @@ impl Entry {
             reason: self.reason.into(),
             objectives: self.objectives.into(),
             metrics: self.metrics.into_iter().collect(),
+            governing: self.governing.into_iter().map(String::into_boxed_str).collect(),
             structural: self.structural,
         };
         Indexed { row, neighbourhood }

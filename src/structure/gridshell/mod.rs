@@ -1,8 +1,9 @@
 //! A pattern as a grid shell: the only part of the solver that knows both a [`Pattern`] and a frame model.
 //!
-//! Which combination gives `deflection`, `utilisation`, `buckling_factor` and their kin as metrics: the one named by
-//! the first requirement of that quantity (or, failing that, of the same family: the deflections, the utilisations);
-//! else the one called `sls` (deflections) or `uls` (the others); else the last by name.
+//! `deflection`, `utilisation`, `buckling_factor` and their kin are, as metrics, the worst over all combinations that a
+//! requirement of that quantity names (or, failing that, one of the same family: the deflections, the utilisations);
+//! else of the one called `sls` (deflections) or `uls` (the others); else of all. The order in which requirements are
+//! written does not matter, and which combination governs is told with the value ([`Governing`]).
 
 mod evaluate;
 mod metrics;
@@ -19,6 +20,7 @@ use super::mechanism::FreeMotion;
 use super::model::ModelError;
 use super::params::{HeightParams, Quantity, StructureParams};
 use super::section::SectionError;
+use super::solver::Unsound;
 use super::system::TooLarge;
 use crate::geometry::pattern::Pattern;
 use evaluate::Evaluator;
@@ -75,6 +77,27 @@ impl RequirementResult {
     }
 }
 
+/// The combination in which each quantity is the worst.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Governing {
+    /// Of `deflection_m`.
+    pub deflection: String,
+    /// Of `deflection_vertical_m`.
+    pub deflection_vertical: String,
+    /// Of `utilisation`.
+    pub utilisation: String,
+    /// Of `utilisation_all`.
+    pub utilisation_all: String,
+    /// Of `utilisation_von_mises`.
+    pub utilisation_von_mises: String,
+    /// Of `buckling_factor`; none where nothing buckles.
+    pub buckling: Option<String>,
+    /// Of `uplift_kn`.
+    pub uplift: String,
+    /// Of `support_slide_m`.
+    pub support_slide: String,
+}
+
 /// What the analysis gives: plain numbers at the height chosen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Response {
@@ -90,10 +113,14 @@ pub struct Response {
     pub member_length_m: f64,
     /// Largest resultant displacement of a node, m.
     pub deflection_m: f64,
+    /// Where that is.
+    pub deflection_place: Place,
     /// Largest vertical displacement of a node, m.
     pub deflection_vertical_m: f64,
     /// Elastic utilisation outside the excluded zones; in second order of the member ends.
     pub utilisation: f64,
+    /// Where that is.
+    pub utilisation_place: Place,
     /// Elastic utilisation of all members; in second order of the member ends.
     pub utilisation_all: f64,
     /// Von Mises utilisation outside the excluded zones, between the ends too.
@@ -106,8 +133,10 @@ pub struct Response {
     pub buckling_factor: f64,
     /// Largest pull on a support in any combination, kN.
     pub uplift_kn: f64,
-    /// Largest horizontal movement of a supported node, in the combination of `deflection`, m.
+    /// Largest horizontal movement of a supported node, in the combinations of `deflection`, m.
     pub support_slide_m: f64,
+    /// Which combination each of these is taken from.
+    pub governing: Governing,
     /// Each requirement, in the config's order.
     pub requirements: Vec<RequirementResult>,
 }
@@ -163,6 +192,9 @@ pub enum AnalysisError {
         /// What is wrong.
         message: String,
     },
+    /// Rounding makes the stiffness singular, though nothing moves freely.
+    #[error("ill-conditioned: stiffness or lengths differ by too many orders of magnitude")]
+    IllConditioned,
     /// A number that is NaN or infinite.
     #[error("{0} is not finite")]
     NotFinite(&'static str),
@@ -174,9 +206,13 @@ pub enum AnalysisError {
     TooLarge(#[from] TooLarge),
 }
 
-impl From<FreeMotion> for AnalysisError {
-    fn from(motion: FreeMotion) -> Self {
-        Self::Mechanism(motion)
+impl From<Unsound> for AnalysisError {
+    fn from(reason: Unsound) -> Self {
+        match reason {
+            Unsound::Mechanism(motion) => Self::Mechanism(motion),
+            Unsound::IllConditioned => Self::IllConditioned,
+            Unsound::NotFinite => Self::NotFinite("the stiffness"),
+        }
     }
 }
 
@@ -229,6 +265,8 @@ pub struct Detailed {
     pub combinations: Vec<CombinationResult>,
     /// The first buckling mode, if there is a positive factor.
     pub mode: Option<BucklingMode>,
+    /// The combinations over which `utilisation` is the worst, by name.
+    pub enveloped: Vec<String>,
 }
 
 /// Analyses a pattern: statics of every combination, first buckling factor, height fixed or sized.
@@ -262,10 +300,11 @@ pub fn analyse_detailed(
     let height = sizing::height(&mut evaluator, params)?;
     let response = evaluator.response(height)?;
     let (combinations, mode) = evaluator.details(proof)?;
+    let enveloped = evaluator.enveloped();
     drop(evaluator);
     let model =
         if height == largest_height(params) { model } else { GridshellModel::new(pattern, params, height)? };
-    Ok(Detailed { response, combinations, mode, model })
+    Ok(Detailed { response, combinations, mode, enveloped, model })
 }
 
 fn largest_height(params: &StructureParams) -> f64 {

@@ -58,9 +58,10 @@ pub fn height(evaluator: &mut Evaluator<'_>, params: &StructureParams) -> Result
 fn used_at(evaluator: &mut Evaluator<'_>, height: f64, all: bool) -> Result<Point, AnalysisError> {
     match shares_at(evaluator, height, all) {
         Ok(Some(shares)) => Ok(Point::new(height, shares)),
-        Ok(None) | Err(AnalysisError::Mechanism(_) | AnalysisError::NoConvergence(_)) => {
-            Ok(Point { height, shares: None })
-        }
+        Ok(None)
+        | Err(
+            AnalysisError::Mechanism(_) | AnalysisError::NoConvergence(_) | AnalysisError::IllConditioned,
+        ) => Ok(Point { height, shares: None }),
         Err(other) => Err(other),
     }
 }

@@ -1,15 +1,17 @@
 //! A grid shell at one height after another: statics of every combination, buckling, requirements.
 
+mod response;
+
+pub use response::CombinationResult;
+
+use super::AnalysisError;
 use super::metrics::{self, Answer, Metrics};
 use super::model::GridshellModel;
-use super::{AnalysisError, BucklingMode, Certificate, Place, Proof, RequirementResult, Response};
-use crate::structure::buckling::{self, Mode, Search};
-use crate::structure::forces::{MemberForces, Utilisation};
-use crate::structure::frame::{by_node, silence};
+use crate::structure::buckling::{self, Mode};
+use crate::structure::frame::{NAMING, silence};
 use crate::structure::mechanism;
-use crate::structure::model::NodeId;
-use crate::structure::params::{HeightParams, Quantity, RequirementParams, StructureParams};
-use crate::structure::second_order::{Aim, Room};
+use crate::structure::params::{Quantity, StructureParams};
+use crate::structure::second_order::{Aim, LeastStep, Reason, Room};
 use crate::structure::section::Section;
 use crate::structure::solver::{Combination, Solver};
 use nalgebra::Vector3;
@@ -22,25 +24,11 @@ const FIRST_ORDER_TOLERANCE: f64 = 1e-9;
 /// Difference of the logarithms of two heights up to which one's factor serves the other: there the iteration takes
 /// as long as a factorisation.
 const NEAR: f64 = 0.08;
+/// In how small steps the load is followed where it is not carried at once: a search asks whether a design stands, not
+/// how nearly.
+const LEAST_STEP: LeastStep = LeastStep(1.0 / 16.0);
 /// How many times the distance of two known heights their line is followed for a first guess.
 const FURTHEST: f64 = 2.0;
-
-/// All results of one combination, for export.
-#[derive(Clone, Debug, PartialEq)]
-pub struct CombinationResult {
-    /// Its name.
-    pub name: String,
-    /// Its largest values.
-    pub metrics: Metrics,
-    /// ux … rz of each node (m, rad).
-    pub displacements: Vec<[f64; 6]>,
-    /// Forces of each member.
-    pub member_forces: Vec<MemberForces>,
-    /// Utilisation of each member.
-    pub member_utilisation: Vec<Utilisation>,
-    /// Reactions at supported nodes (N, Nm); `None` where nothing is held.
-    pub reactions: Vec<(NodeId, [Option<f64>; 6])>,
-}
 
 /// One combination at the current height.
 struct State {
@@ -74,6 +62,13 @@ pub struct Evaluator<'a> {
     first_known: bool,
     /// The last heights before this one and their displacements.
     former: [(f64, Vec<f64>); 2],
+}
+
+/// A combination without an equilibrium in second order.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fallen {
+    combination: usize,
+    reason: Reason,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -132,9 +127,9 @@ impl<'a> Evaluator<'a> {
         if self.params.order == 2 { self.params.second_order_tolerance } else { FIRST_ORDER_TOLERANCE }
     }
 
-    /// The same up to `tolerance` of the largest displacement and axial force. Gives the combination that is past its
-    /// critical load, if one is.
-    pub fn statics_within(&mut self, height: f64, tolerance: f64) -> Result<Option<usize>, AnalysisError> {
+    /// The same up to `tolerance` of the largest displacement and axial force. Gives the combination that has no
+    /// equilibrium, if one has none.
+    pub fn statics_within(&mut self, height: f64, tolerance: f64) -> Result<Option<Fallen>, AnalysisError> {
         match self.current {
             Some(current) if current.height == height => {
                 if current.tolerance <= tolerance {
@@ -220,7 +215,7 @@ impl<'a> Evaluator<'a> {
 
     /// All combinations together with the factor at hand; if that does not settle, with that of K; then, in second
     /// order, one by one with factors of K + Kg, which always tells.
-    fn settle(&mut self, height: f64, tolerance: f64) -> Result<Option<usize>, AnalysisError> {
+    fn settle(&mut self, height: f64, tolerance: f64) -> Result<Option<Fallen>, AnalysisError> {
         let second_order = self.params.order == 2;
         if !second_order && self.first_known {
             return Ok(None);
@@ -240,9 +235,10 @@ impl<'a> Evaluator<'a> {
         let n = self.solver.system().unknowns();
         for (s, state) in self.states.iter_mut().enumerate() {
             let columns = s * n..(s + 1) * n;
-            match self.solver.second_order(&self.f[columns.clone()], &state.first_axial, tolerance) {
-                Ok(found) => self.u[columns].copy_from_slice(&found),
-                Err(_) => return Ok(Some(s)),
+            let f = &self.f[columns.clone()];
+            match self.solver.second_order(f, &state.first_axial, tolerance, LEAST_STEP) {
+                Ok(found) => self.u[columns].copy_from_slice(&found.u),
+                Err(lost) => return Ok(Some(Fallen { combination: s, reason: lost.reason })),
             }
             state.stable = true;
         }
@@ -261,7 +257,7 @@ impl<'a> Evaluator<'a> {
     pub fn prove_stable(&mut self) -> Result<(), AnalysisError> {
         match self.not_stable() {
             None => Ok(()),
-            Some(fallen) => Err(self.unstable(fallen)),
+            Some(combination) => Err(self.unstable(Fallen { combination, reason: Reason::PastCritical })),
         }
     }
 
@@ -293,14 +289,13 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Names what gives way in a combination: the first buckling mode under its first-order axial forces.
-    fn unstable(&mut self, index: usize) -> AnalysisError {
+    fn unstable(&mut self, Fallen { combination: index, reason }: Fallen) -> AnalysisError {
+        if reason == Reason::NoConvergence {
+            return AnalysisError::NoConvergence("second-order");
+        }
         self.find_first_axial_forces();
-        let search = Search { modes: 1, tolerance: 1e-4 };
         let state = &self.states[index];
-        match buckling::modes(&mut self.solver, &state.first_axial, search)
-            .ok()
-            .and_then(|mut modes| modes.pop())
-        {
+        match buckling::first(&mut self.solver, &state.first_axial, NAMING).ok().flatten() {
             Some(mode) => AnalysisError::Unstable {
                 combination: state.name.clone(),
                 motion: mechanism::largest(self.solver.model(), self.solver.system(), &mode.shape),
@@ -358,188 +353,17 @@ impl<'a> Evaluator<'a> {
         self.factored_at = self.current.map_or(0.0, |current| current.height);
         self.find_first_axial_forces();
         let state = &self.states[index];
-        let search = Search { modes: 1, tolerance: MODE_TOLERANCE };
-        let mode = buckling::modes(&mut self.solver, &state.first_axial, search)
-            .map_err(|_| AnalysisError::NoConvergence("buckling"))?
-            .pop();
+        let mode = buckling::first(&mut self.solver, &state.first_axial, MODE_TOLERANCE)
+            .map_err(|_| AnalysisError::NoConvergence("buckling"))?;
+        if self.states.iter().all(|state| state.stable) {
+            // Nobody else is going to: the next height may want the factor of this one.
+            self.solver.refactorise().map_err(|_| AnalysisError::NoConvergence("buckling"))?;
+        }
         self.states[index].mode = Some(mode.clone());
         Ok(mode)
     }
 
     fn index_of(&self, name: &str) -> Option<usize> {
         self.states.iter().position(|state| state.name == name)
-    }
-
-    /// The combination that gives a quantity as a metric; see the module's description.
-    fn combination_of(&self, quantity: Quantity) -> usize {
-        let deflections = [Quantity::Deflection, Quantity::DeflectionVertical];
-        let utilisations = [Quantity::Utilisation, Quantity::UtilisationAll, Quantity::UtilisationVonMises];
-        let family = [deflections.as_slice(), utilisations.as_slice(), &[Quantity::BucklingFactor]]
-            .into_iter()
-            .find(|family| family.contains(&quantity))
-            .unwrap_or(&[]);
-        let requirements = &self.params.requirements;
-        let named = requirements
-            .iter()
-            .find(|r| r.quantity == quantity)
-            .or_else(|| requirements.iter().find(|r| family.contains(&r.quantity)))
-            .map(|r| r.combination.as_str());
-        let usual = if deflections.contains(&quantity) { "sls" } else { "uls" };
-        named
-            .and_then(|name| self.index_of(name))
-            .or_else(|| self.index_of(usual))
-            .unwrap_or(self.states.len() - 1)
-    }
-
-    /// How a requirement fares at the current height.
-    pub fn requirement(&mut self, required: &RequirementParams) -> Result<RequirementResult, AnalysisError> {
-        let index = self.index_of(&required.combination).ok_or_else(|| AnalysisError::Params {
-            key: "requirement.combination".into(),
-            message: format!("there is no combination {:?}", required.combination),
-        })?;
-        let (value, place) = self.value(required.quantity, index)?;
-        let (limit, upper) = match (required.max, required.min) {
-            (Some(max), _) => (max, true),
-            (None, min) => (min.unwrap_or(0.0), false),
-        };
-        let combination = required.combination.clone();
-        Ok(RequirementResult { quantity: required.quantity, combination, place, value, limit, upper })
-    }
-
-    fn value(&mut self, quantity: Quantity, index: usize) -> Result<(f64, Place), AnalysisError> {
-        if quantity == Quantity::BucklingFactor {
-            return Ok(match self.mode(index)? {
-                None => (f64::INFINITY, Place::Whole),
-                Some(mode) => (mode.factor, self.place_of(&mode)),
-            });
-        }
-        let metrics = self.metrics(index);
-        Ok(match quantity {
-            Quantity::Deflection => metrics.deflection,
-            Quantity::DeflectionVertical => metrics.deflection_vertical,
-            Quantity::Utilisation => metrics.utilisation,
-            Quantity::UtilisationAll => metrics.utilisation_all,
-            Quantity::UtilisationVonMises | Quantity::BucklingFactor => metrics.von_mises,
-        })
-    }
-
-    fn place_of(&self, mode: &Mode) -> Place {
-        Place::Node(mechanism::largest(&self.model.frame, self.solver.system(), &mode.shape).node.0)
-    }
-
-    /// All metrics and requirements at this height.
-    pub fn response(&mut self, height: f64) -> Result<Response, AnalysisError> {
-        self.statics(height)?;
-        let buckling = self.combination_of(Quantity::BucklingFactor);
-        self.mode(buckling)?;
-        let requirements: Result<Vec<_>, _> =
-            self.params.requirements.iter().map(|r| self.requirement(r)).collect();
-        // Last of what needs a factor: it takes the room of that of K.
-        self.prove_stable()?;
-        let deflection = self.combination_of(Quantity::Deflection);
-        let uplift = (0..self.states.len()).map(|s| self.metrics(s).uplift.0).fold(0.0, f64::max);
-        let metric = |this: &mut Self, quantity| {
-            let index = this.combination_of(quantity);
-            Ok::<_, AnalysisError>(this.value(quantity, index)?.0)
-        };
-        let utilisation = self.combination_of(Quantity::Utilisation);
-        let all = self.combination_of(Quantity::UtilisationAll);
-        let area = self.solver.sections()[0].area;
-        let mass = area * self.params.material.density_kg_m3 * self.model.total_length;
-        let response = Response {
-            height_m: height,
-            height_rounded_m: rounded(height, self.params.height),
-            mass_kg: mass,
-            mass_per_area_kg_m2: if self.model.panel_area > 0.0 { mass / self.model.panel_area } else { 0.0 },
-            member_length_m: self.model.total_length,
-            deflection_m: metric(self, Quantity::Deflection)?,
-            deflection_vertical_m: metric(self, Quantity::DeflectionVertical)?,
-            utilisation: metric(self, Quantity::Utilisation)?,
-            utilisation_all: metric(self, Quantity::UtilisationAll)?,
-            utilisation_von_mises: metric(self, Quantity::UtilisationVonMises)?,
-            utilisation_inner: self.metrics(utilisation).inner.0,
-            utilisation_all_inner: self.metrics(all).inner_all.0,
-            buckling_factor: metric(self, Quantity::BucklingFactor)?,
-            uplift_kn: uplift / 1e3,
-            support_slide_m: self.metrics(deflection).slide.0,
-            requirements: requirements?,
-        };
-        check_finite(&response)?;
-        Ok(response)
-    }
-
-    /// Everything about each combination at the current height, and the buckling mode.
-    pub fn details(
-        &mut self,
-        proof: Proof,
-    ) -> Result<(Vec<CombinationResult>, Option<BucklingMode>), AnalysisError> {
-        let results = (0..self.states.len())
-            .map(|s| {
-                let metrics = self.metrics(s);
-                self.detail(s, metrics)
-            })
-            .collect();
-        let index = self.combination_of(Quantity::BucklingFactor);
-        let Some(mode) = self.mode(index)? else { return Ok((results, None)) };
-        let certificate = (proof == Proof::Certificate).then(|| self.certificate(index, mode.factor));
-        let mut shape = by_node(self.solver.system(), &mode.shape, self.model.frame.nodes().len());
-        let size = shape.iter().map(|d| Vector3::new(d[0], d[1], d[2]).norm()).fold(0.0, f64::max);
-        if size > 0.0 {
-            shape.iter_mut().flatten().for_each(|d| *d /= size);
-        }
-        let combination = self.states[index].name.clone();
-        Ok((results, Some(BucklingMode { combination, factor: mode.factor, shape, certificate })))
-    }
-
-    /// Whether λ is the first buckling factor of a combination.
-    fn certificate(&mut self, index: usize, factor: f64) -> Certificate {
-        let axial = &self.states[index].first_axial;
-        Certificate {
-            none_below: self.solver.factorise_shifted(axial, 0.999 * factor).is_ok(),
-            one_here: self.solver.factorise_shifted(axial, 1.001 * factor).is_err(),
-        }
-    }
-
-    fn detail(&self, index: usize, metrics: Metrics) -> CombinationResult {
-        let (state, answer) = (&self.states[index], self.answer(index));
-        let nodes = self.model.frame.nodes().len();
-        let pushes =
-            by_node(self.solver.system(), &self.solver.reactions(answer.u, answer.axial, answer.f), nodes);
-        let fixed = self.model.frame.fixed();
-        let held = |n: usize| std::array::from_fn(|d| fixed[n][d].then_some(pushes[n][d]));
-        CombinationResult {
-            name: state.name.clone(),
-            metrics,
-            displacements: by_node(self.solver.system(), answer.u, nodes),
-            member_forces: self.solver.member_forces(answer.u, answer.axial, answer.member_loads),
-            member_utilisation: metrics::utilisations(self.model, &self.solver, answer).collect(),
-            reactions: self.model.frame.supported().map(|node| (node, held(node.0 as usize))).collect(),
-        }
-    }
-}
-
-fn rounded(height: f64, params: HeightParams) -> f64 {
-    match params {
-        HeightParams::Fixed { .. } => height,
-        // The small deduction keeps a height that is a whole number of steps but for rounding.
-        HeightParams::Sized { step_m, .. } => (height / step_m - 1e-9).ceil() * step_m,
-    }
-}
-
-fn check_finite(r: &Response) -> Result<(), AnalysisError> {
-    let values = [
-        (r.mass_kg, "the mass"),
-        (r.deflection_m, "the deflection"),
-        (r.deflection_vertical_m, "the vertical deflection"),
-        (r.utilisation_all, "the utilisation"),
-        (r.utilisation_all_inner, "the utilisation"),
-        (r.utilisation_von_mises, "the von Mises utilisation"),
-        (r.uplift_kn, "the uplift"),
-        (r.support_slide_m, "the support slide"),
-    ];
-    match values.into_iter().find(|(value, _)| !value.is_finite()) {
-        None if !r.buckling_factor.is_nan() => Ok(()),
-        None => Err(AnalysisError::NotFinite("the buckling factor")),
-        Some((_, name)) => Err(AnalysisError::NotFinite(name)),
     }
 }

@@ -1,117 +1,29 @@
-//! Linear buckling: the smallest positive λ of (K + λ Kg) φ = 0.
-//!
-//! With M = K + s Kg positive definite (s below the first positive λ; s = 0 always will do), −Kg φ = ν M φ where
-//! ν = 1 / (λ − s): the wanted λ are the largest ν. Block Lanczos with thick restarts (Wu, Simon 2000) in the inner
-//! product of M, with full re-orthogonalisation; products with M never appear, because for w = M⁻¹ g the product
-//! M w = g is at hand. The start block is random: starting from displacements would miss antisymmetric modes. A block
-//! finds repeated factors as often as they are repeated.
+//! −Kg φ = ν K φ where ν = 1/λ: the wanted λ are the largest ν. Block Lanczos with thick restarts (Wu, Simon 2000) in
+//! the inner product of K, with full re-orthogonalisation; products with K never appear, because for w = K⁻¹ g the
+//! product K w = g is at hand. The start block is random: starting from displacements would miss antisymmetric modes. A
+//! block finds a repeated factor as often as it has columns, not more: what it finds is counted afterwards.
 
-use super::columns::Columns;
-use super::solver::Solver;
+use super::super::columns::Columns;
+use super::super::solver::Solver;
+use super::{BELIEVED, Found, Mode, NOTHING, NoConvergence, Search};
 use crate::random;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
-use nalgebra_sparse::CscMatrix;
 
-/// A buckling mode.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Mode {
-    /// Load factor λ.
-    pub factor: f64,
-    /// Shape φ, in elimination order.
-    pub shape: Vec<f64>,
-}
-
-/// The iteration did not settle (it never should not).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct NoConvergence;
-
-/// How modes are found.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Search {
-    /// How many modes.
-    pub modes: usize,
-    /// Residual relative to the eigenvalue at which a mode counts as found; its λ is better than the square of that
-    /// over its distance from the next.
-    pub tolerance: f64,
-}
-
-/// Up to this many unknowns, or this many for each mode, the dense problem is solved.
-const DENSE: usize = 150;
-const DENSE_A_MODE: usize = 4;
-/// Of ν beside the largest |ν|, below which there is no factor but rounding.
-const NOTHING: f64 = 1e-10;
-const RESTARTS: usize = 40;
-/// Restarts after which the tolerance is eased tenfold, up to [`EASED`]: a stiffness whose digits are used up by its
-/// own spread (bending 1e-11 of axial) cannot give a smaller residual.
-const EASE_EVERY: usize = 6;
-const EASED: f64 = 1e-4;
+/// Restarts after which the factors are counted instead.
+const RESTARTS: usize = 12;
+/// Restarts after which what is believed is enough: a stiffness whose digits are used up by its own spread (bending
+/// 1e-11 of axial) cannot give a smaller residual.
+const EASED_AFTER: usize = 6;
+/// Ritz values that differ by less than this share are one repeated factor.
+const REPEATED: f64 = 1e-9;
 /// Share of a squared norm left by orthogonalisation, below which it is done again.
 const CANCELLED: f64 = 1e-3;
 /// Orthogonality fades only as Ritz vectors settle (Paige 1971): to rounding over the residual. While no residual is
 /// below this, that is nothing, and a new block need only be made orthogonal to the last two.
 const LOCAL: f64 = 1e-6;
 
-/// The first modes, λ ascending, at most `search.modes`; fewer if there are no more positive factors.
-///
-/// # Errors
-/// [`NoConvergence`].
-pub fn modes(solver: &mut Solver<'_>, axial: &[f64], search: Search) -> Result<Vec<Mode>, NoConvergence> {
-    if search.modes == 0 || axial.iter().all(|&n| n == 0.0) {
-        return Ok(Vec::new());
-    }
-    let free = solver.system().held().iter().filter(|h| !**h).count();
-    let search = Search { modes: search.modes.min(free), ..search };
-    if free <= DENSE.max(DENSE_A_MODE * search.modes) {
-        dense(solver, axial, search.modes)
-    } else {
-        Lanczos::new(solver, axial, search).run()
-    }
-}
-
-/// All modes of a small model: L⁻¹ (−Kg) L⁻ᵀ with K = L Lᵀ.
-fn dense(solver: &Solver<'_>, axial: &[f64], modes: usize) -> Result<Vec<Mode>, NoConvergence> {
-    let n = solver.system().unknowns();
-    let free: Vec<usize> = (0..n).filter(|&i| !solver.system().held()[i]).collect();
-    let m = free.len();
-    let of_free = |matrix: CscMatrix<f64>| {
-        let whole = DMatrix::from(&matrix);
-        whole.select_columns(&free).select_rows(&free)
-    };
-    let mut k = of_free(solver.stiffness_matrix());
-    let mut g = -of_free(solver.geometric_matrix(axial));
-    // Scaled to unit diagonal, so that units do not matter.
-    let scale = DVector::from_fn(m, |i, _| 1.0 / k[(i, i)].sqrt());
-    for j in 0..m {
-        for i in 0..m {
-            k[(i, j)] *= scale[i] * scale[j];
-            g[(i, j)] *= scale[i] * scale[j];
-        }
-    }
-    let l = k.cholesky().ok_or(NoConvergence)?.unpack();
-    let half = l.solve_lower_triangular(&g).ok_or(NoConvergence)?;
-    let mut a = l.solve_lower_triangular(&half.transpose()).ok_or(NoConvergence)?;
-    a = (&a + a.transpose()) * 0.5;
-    let eigen = SymmetricEigen::try_new(a, f64::EPSILON, 10_000).ok_or(NoConvergence)?;
-    let largest = eigen.eigenvalues.amax();
-    let mut order: Vec<usize> = (0..m).collect();
-    order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
-    let mut found = Vec::new();
-    for &i in order.iter().take(modes) {
-        let nu = eigen.eigenvalues[i];
-        if nu > NOTHING * largest {
-            let shape = l.tr_solve_lower_triangular(&eigen.eigenvectors.column(i)).ok_or(NoConvergence)?;
-            let mut whole = vec![0.0; n];
-            for (j, &at) in free.iter().enumerate() {
-                whole[at] = shape[j] * scale[j];
-            }
-            found.push(Mode { factor: 1.0 / nu, shape: whole });
-        }
-    }
-    Ok(found)
-}
-
 /// The iteration's state: M-orthonormal V, W = M V, T = Vᵀ (−Kg) V.
-struct Lanczos<'a, 'm> {
+pub struct Lanczos<'a, 'm> {
     solver: &'a mut Solver<'m>,
     axial: &'a [f64],
     search: Search,
@@ -132,7 +44,8 @@ struct Ritz {
 }
 
 impl<'a, 'm> Lanczos<'a, 'm> {
-    fn new(solver: &'a mut Solver<'m>, axial: &'a [f64], search: Search) -> Self {
+    /// Ready to look for `search.modes` modes.
+    pub fn new(solver: &'a mut Solver<'m>, axial: &'a [f64], search: Search) -> Self {
         let n = solver.system().unknowns();
         let block = (search.modes + 1).clamp(2, 6);
         // Restarting keeps the wanted ones; there must be room to go on beside them.
@@ -151,17 +64,20 @@ impl<'a, 'm> Lanczos<'a, 'm> {
         }
     }
 
-    fn run(mut self) -> Result<Vec<Mode>, NoConvergence> {
+    /// The modes found, which may not be all.
+    ///
+    /// # Errors
+    /// [`NoConvergence`] if the residuals do not become small.
+    pub fn run(mut self) -> Result<Found, NoConvergence> {
         let (mut x, mut mx) = self.random_block();
         let asked = self.search.tolerance;
         for restart in 0..RESTARTS {
-            let eased = asked * 10f64.powi((restart / EASE_EVERY) as i32);
-            self.search.tolerance = eased.min(EASED).max(asked);
+            self.search.tolerance = if restart < EASED_AFTER { asked } else { asked.max(BELIEVED) };
             while self.v.count() + x.count() <= self.most {
                 let (z, g, remainder) = self.extend(x, mx);
                 let ritz = self.ritz();
                 if self.settled(&ritz, &remainder) {
-                    return Ok(self.shapes(&ritz));
+                    return Ok(self.found(&ritz));
                 }
                 (x, mx) = (z, g);
                 if x.count() == 0 {
@@ -169,11 +85,13 @@ impl<'a, 'm> Lanczos<'a, 'm> {
                     self.local = false;
                     (x, mx) = self.random_block();
                     if x.count() == 0 {
-                        return Ok(self.shapes(&ritz));
+                        return Ok(self.found(&ritz));
                     }
                 }
             }
-            self.restart();
+            if self.restart() {
+                break;
+            }
         }
         Err(NoConvergence)
     }
@@ -260,27 +178,31 @@ impl<'a, 'm> Lanczos<'a, 'm> {
         })
     }
 
-    fn shapes(&self, ritz: &Ritz) -> Vec<Mode> {
+    fn found(&self, ritz: &Ritz) -> Found {
         let largest = ritz.values.iter().fold(0.0f64, |a, v| a.max(v.abs()));
         let wanted = ritz.values.iter().take(self.search.modes).filter(|v| **v > NOTHING * largest).count();
         let shapes = self.v.times(&ritz.vectors.columns(0, wanted).into_owned());
-        (0..wanted)
-            .map(|i| Mode {
-                factor: 1.0 / ritz.values[i],
-                shape: shapes.data[i * shapes.n..(i + 1) * shapes.n].to_vec(),
-            })
-            .collect()
+        let mode = |i: usize| Mode {
+            factor: 1.0 / ritz.values[i],
+            shape: shapes.data[i * shapes.n..(i + 1) * shapes.n].to_vec(),
+        };
+        Found { modes: (0..wanted).map(mode).collect(), largest, tolerance: self.search.tolerance }
     }
 
-    /// Keeps the best Ritz vectors.
-    fn restart(&mut self) {
+    /// Keeps the best Ritz vectors. Whether going on is in vain: a factor repeated as often as the block has columns, or
+    /// more often, is wanted, and no more of it would be seen.
+    fn restart(&mut self) -> bool {
         self.local = false;
         let ritz = self.ritz();
+        let wanted = &ritz.values[..self.search.modes.min(ritz.values.len())];
+        let repeated = |run: &[f64]| run[0] - run[run.len() - 1] <= REPEATED * run[0].abs();
+        let in_vain = wanted.windows(self.block).any(repeated);
         let keep = (self.most / 3).max(self.search.modes + 2).min(self.v.count());
         let s = ritz.vectors.columns(0, keep).into_owned();
         self.v = self.v.times(&s);
         self.w = self.w.times(&s);
         self.t = DMatrix::from_diagonal(&DVector::from_column_slice(&ritz.values[..keep]));
+        in_vain
     }
 }
 
