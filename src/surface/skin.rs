@@ -1,0 +1,191 @@
+//! The upper skin of a mesh: what is seen of it from above. Faces below others (the soffit of a solid, a lower layer) and walls
+//! carry no pattern, and so the winding of faces, which says what is inside and outside, does not count.
+
+use super::tree::{Closest, TriangleTree};
+use super::triangle::{Triangle, angle_at, is_upright, overlap, square, vector_area};
+
+/// Nearer than this share of the size, a point is on an edge or in a corner.
+const EDGE: f64 = 1e-9;
+/// Exporters round to millimetres (ECOSYSTEM §3b): nearer than this share of the size, faces touch, and layers are one.
+const ROUNDING: f64 = 1e-4;
+
+/// How much of a triangle may be seen from above.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Seen {
+    /// All of it.
+    All,
+    /// Not all of it, but its middle.
+    Middle,
+    /// Not its middle.
+    NotMiddle,
+}
+
+/// The upper skin. It depends on the set of triangles alone: not on their order, nor on that of their corners.
+#[derive(Clone, Debug)]
+pub struct Skin {
+    tree: TriangleTree,
+    triangles: Vec<Triangle>,
+    /// Unit normal of each triangle, upwards.
+    normals: Vec<[f64; 3]>,
+    seen: Vec<Seen>,
+    /// Whether some triangle lies below another.
+    has_layers: bool,
+    /// Smallest and largest x and y, m.
+    pub bounds: [[f64; 2]; 2],
+    edge: f64,
+    rounding: f64,
+}
+
+impl Skin {
+    /// The skin of these triangles; those without area do not count, and walls only where there is nothing else. `None` if none is
+    /// left.
+    pub fn new(triangles: impl Iterator<Item = Triangle>) -> Option<Self> {
+        let has_area = |t: &Triangle| square(vector_area(t)) > 0.0;
+        let mut triangles: Vec<Triangle> = triangles.filter(has_area).map(sorted).collect();
+        triangles.sort_unstable_by(|s, t| {
+            let pairs = s.iter().flatten().zip(t.iter().flatten());
+            pairs.map(|(a, b)| a.total_cmp(b)).find(|o| o.is_ne()).unwrap_or(std::cmp::Ordering::Equal)
+        });
+        triangles.dedup();
+        let size = size(plan_bounds(&triangles));
+        let (edge, rounding) = (EDGE * size, ROUNDING * size);
+        if !triangles.iter().all(|t| is_upright(t, rounding)) {
+            triangles.retain(|t| !is_upright(t, rounding));
+        }
+        let normals = triangles.iter().map(upward).collect();
+        let tree = TriangleTree::new(&triangles)?;
+        let seen = vec![Seen::All; triangles.len()];
+        let bounds = plan_bounds(&triangles);
+        let mut skin = Self { tree, triangles, normals, seen, has_layers: false, bounds, edge, rounding };
+        skin.look_from_above();
+        Some(skin)
+    }
+
+    /// Finds the triangles that lie below others.
+    fn look_from_above(&mut self) {
+        let is_covered = |i: usize| {
+            let t = &self.triangles[i];
+            let bounds = plan_bounds(std::slice::from_ref(t));
+            let lowest = t.iter().fold(f64::INFINITY, |z, p| z.min(p[2])) + self.rounding;
+            self.tree.any_near(bounds, lowest, 0.0, |other, j| {
+                j as usize != i && other.iter().any(|p| p[2] > lowest) && overlap(t, other, self.rounding)
+            })
+        };
+        let covered: Vec<usize> = (0..self.triangles.len()).filter(|&i| is_covered(i)).collect();
+        self.has_layers = !covered.is_empty();
+        for i in covered {
+            let [a, b, c] = self.triangles[i];
+            let middle = std::array::from_fn(|k| (a[k] + b[k] + c[k]) / 3.0);
+            self.seen[i] = if self.is_below(middle) { Seen::NotMiddle } else { Seen::Middle };
+        }
+    }
+
+    /// Height over (x, y), of the uppermost layer.
+    pub fn height(&self, x: f64, y: f64) -> Option<f64> {
+        // Edges belong to the faces at them, else a point exactly on one falls through; farther off, a neighbour must not lift it.
+        let near = self.tree.highest(x, y, self.edge);
+        if near.is_some() && !self.has_layers {
+            return near.map(|n| n.point[2]);
+        }
+        let wide = self.tree.highest(x, y, self.rounding);
+        // Through a slit between faces of the upper layer the lower one is seen, which is in the plane of neither.
+        let best = match (near, wide) {
+            (Some(n), Some(w)) if self.is_off(w.point, n.triangle) && self.is_off(n.point, w.triangle) => w,
+            (Some(n), _) => n,
+            (None, w) => w?,
+        };
+        Some(best.point[2])
+    }
+
+    /// Whether a point is off the plane of a triangle.
+    fn is_off(&self, p: [f64; 3], triangle: u32) -> bool {
+        let ([corner, ..], n) = (self.triangles[triangle as usize], self.normals[triangle as usize]);
+        let away: f64 = (0..3).map(|k| (p[k] - corner[k]) * n[k]).sum();
+        away.abs() > self.rounding
+    }
+
+    /// Whether the skin lies above a point.
+    fn is_below(&self, [x, y, z]: [f64; 3]) -> bool {
+        self.height(x, y).is_some_and(|height| height > z + self.rounding)
+    }
+
+    /// The closest point that is seen from above.
+    pub fn closest(&self, p: [f64; 3]) -> Closest {
+        if !self.has_layers {
+            return self.tree.closest(p);
+        }
+        let is_seen = |i: u32, point| self.seen[i as usize] == Seen::All || !self.is_below(point);
+        let found = self.tree.closest_where(p, is_seen);
+        if found.distance2 < f64::INFINITY {
+            return found;
+        }
+        // Of every triangle the closest point is below another: up from the nearest.
+        let below = self.tree.closest(p).point;
+        let above = self.tree.highest(below[0], below[1], self.rounding);
+        let (point, triangle) = above.map_or((below, 0), |above| (above.point, above.triangle));
+        Closest { point, triangle, distance2: square(std::array::from_fn(|k| point[k] - p[k])) }
+    }
+
+    /// Unit normal at a point of the skin on a triangle, upwards. On an edge and in a corner it is the mean of those of the faces
+    /// there, weighted by their angles (Bærentzen, Aanæs 2005, *Signed distance computation using the angle weighted pseudonormal*):
+    /// with that of one face alone, a vertex on a ridge is drawn off to that side.
+    pub fn normal(&self, point: [f64; 3], triangle: u32) -> [f64; 3] {
+        let own = self.normals[triangle as usize];
+        if angle_at(&self.triangles[triangle as usize], point, self.edge).is_none_or(|angle| angle > 4.0) {
+            return own;
+        }
+        let mut around = Vec::new();
+        let [x, y, z] = point;
+        self.tree.any_near([[x, y]; 2], z - self.edge, self.edge, |corners, i| {
+            if self.seen[i as usize] != Seen::NotMiddle
+                && let Some(angle) = angle_at(corners, point, self.edge)
+            {
+                around.push((i, angle));
+            }
+            false
+        });
+        around.sort_unstable_by_key(|&(i, _)| i);
+        let mut sum = [0.0; 3];
+        for (i, angle) in around {
+            let n = self.normals[i as usize];
+            sum = std::array::from_fn(|k| sum[k] + angle * n[k]);
+        }
+        let length = square(sum).sqrt();
+        if length > 0.0 { sum.map(|v| v / length) } else { own }
+    }
+}
+
+/// A triangle with its corners in order of x, y, z.
+fn sorted(mut t: Triangle) -> Triangle {
+    // −0 is 0.
+    t.iter_mut().flatten().for_each(|x| *x += 0.0);
+    t.sort_by(|p, q| {
+        p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])).then(p[2].total_cmp(&q[2]))
+    });
+    t
+}
+
+/// Unit normal of a triangle, upwards.
+fn upward(t: &Triangle) -> [f64; 3] {
+    let n = vector_area(t);
+    let length = square(n).sqrt();
+    let sign = if n[2] < 0.0 { -length } else { length };
+    n.map(|v| v / sign)
+}
+
+/// Smallest and largest x and y.
+fn plan_bounds(triangles: &[Triangle]) -> [[f64; 2]; 2] {
+    let mut bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+    for p in triangles.iter().flatten() {
+        for k in 0..2 {
+            bounds[0][k] = bounds[0][k].min(p[k]);
+            bounds[1][k] = bounds[1][k].max(p[k]);
+        }
+    }
+    bounds
+}
+
+/// Diagonal of a box in plan.
+fn size([low, high]: [[f64; 2]; 2]) -> f64 {
+    (high[0] - low[0]).hypot(high[1] - low[1])
+}
