@@ -1,8 +1,12 @@
 //! Mesh files as plain arrays: OBJ and COMPAS JSON.
 
 pub mod compas;
+mod join;
 pub mod obj;
+pub mod text;
 mod unit;
+
+pub use join::MEET;
 
 pub use unit::LengthUnit;
 

@@ -13,8 +13,8 @@ use std::path::Path;
 #[derive(Clone, Debug)]
 pub struct MeshSurface {
     skin: Skin,
-    /// Whether most of it faces y, as the roofs of files with y up do.
-    is_upright: bool,
+    /// What to say where it does not reach: that most of it faces y, as the roofs of files with y up do.
+    hint: String,
 }
 
 impl MeshSurface {
@@ -25,7 +25,13 @@ impl MeshSurface {
     pub fn read(file: &Path, unit: LengthUnit) -> Result<Self, SurfaceError> {
         let obj = obj::read(file, unit)?;
         check_faces(&obj, file)?;
-        Self::new(&obj.vertices, &obj.faces).ok_or_else(|| SurfaceError::NoFaces { file: file.to_owned() })
+        let no_faces = || SurfaceError::NoFaces { file: file.to_owned(), hint: obj.hint() };
+        let mut surface = Self::new(&obj.vertices, &obj.faces).ok_or_else(no_faces)?;
+        if !surface.hint.is_empty() {
+            let line = obj.face_lines.first().copied().unwrap_or_default();
+            surface.hint = format!("; {}:{line}{}", file.display(), surface.hint.replacen(';', ":", 1));
+        }
+        Ok(surface)
     }
 
     /// A mesh from its triangles and quads; faces without area do not count. `None` if none is left.
@@ -34,7 +40,12 @@ impl MeshSurface {
         let [_, y, z] = triangles.iter().map(vector_area).fold([0.0; 3], |sum: [f64; 3], area| {
             std::array::from_fn(|k| sum[k] + area[k].abs())
         });
-        Some(Self { skin: Skin::new(triangles.into_iter())?, is_upright: y > z })
+        let hint = if y > z {
+            "; most of the mesh faces y, as in files with y up: files are read with z up, so export it with z up"
+        } else {
+            ""
+        };
+        Some(Self { skin: Skin::new(triangles.into_iter())?, hint: hint.to_owned() })
     }
 }
 
@@ -92,17 +103,12 @@ impl Surface for MeshSurface {
 
     fn foot(&self, point: [f64; 3]) -> ([f64; 3], [f64; 3]) {
         let closest = self.skin.closest(point);
-        (closest.point, self.skin.normal(closest.point, closest.triangle))
+        (closest.point, self.skin.normal(&closest))
     }
 
     fn extent(&self) -> String {
         let [[x0, y0], [x1, y1]] = self.skin.bounds;
-        let hint = if self.is_upright {
-            "; most of it faces y, as in files with y up: files are read with z up, so export it with z up"
-        } else {
-            ""
-        };
-        format!("the mesh lies within x {x0} to {x1}, y {y0} to {y1}{hint}")
+        format!("the mesh lies within x {x0} to {x1}, y {y0} to {y1}{}", self.hint)
     }
 
     fn bounds(&self) -> Option<[[f64; 2]; 2]> {

@@ -1,8 +1,8 @@
 //! The upper skin of a mesh: what is seen of it from above. Faces below others (the soffit of a solid, a lower layer) and walls
 //! carry no pattern, and so the winding of faces, which says what is inside and outside, does not count.
 
-use super::tree::{Closest, TriangleTree};
-use super::triangle::{Triangle, angle_at, is_upright, overlap, square, vector_area};
+use super::tree::{Closest, Over, TriangleTree};
+use super::triangle::{Triangle, angle_at, dot, is_upright, overlap, square, sub, vector_area};
 
 /// Nearer than this share of the size, a point is on an edge or in a corner.
 const EDGE: f64 = 1e-9;
@@ -20,16 +20,26 @@ enum Seen {
     NotMiddle,
 }
 
+/// The triangles of a mesh with several layers.
+#[derive(Clone, Debug)]
+struct Layers {
+    /// Those that are seen from above altogether.
+    clear: Option<TriangleTree>,
+    /// Those that are below others, at least in part.
+    covered: TriangleTree,
+}
+
 /// The upper skin. It depends on the set of triangles alone: not on their order, nor on that of their corners.
 #[derive(Clone, Debug)]
 pub struct Skin {
+    /// All triangles.
     tree: TriangleTree,
+    /// Where some lie below others: those that do not, and those that do.
+    layers: Option<Layers>,
     triangles: Vec<Triangle>,
     /// Unit normal of each triangle, upwards.
     normals: Vec<[f64; 3]>,
     seen: Vec<Seen>,
-    /// Whether some triangle lies below another.
-    has_layers: bool,
     /// Smallest and largest x and y, m.
     pub bounds: [[f64; 2]; 2],
     edge: f64,
@@ -56,35 +66,47 @@ impl Skin {
         let tree = TriangleTree::new(&triangles)?;
         let seen = vec![Seen::All; triangles.len()];
         let bounds = plan_bounds(&triangles);
-        let mut skin = Self { tree, triangles, normals, seen, has_layers: false, bounds, edge, rounding };
+        let mut skin = Self { tree, layers: None, triangles, normals, seen, bounds, edge, rounding };
         skin.look_from_above();
         Some(skin)
     }
 
     /// Finds the triangles that lie below others.
     fn look_from_above(&mut self) {
-        let is_covered = |i: usize| {
-            let t = &self.triangles[i];
-            let bounds = plan_bounds(std::slice::from_ref(t));
-            let lowest = t.iter().fold(f64::INFINITY, |z, p| z.min(p[2])) + self.rounding;
-            self.tree.any_near(bounds, lowest, 0.0, |other, j| {
-                j as usize != i && other.iter().any(|p| p[2] > lowest) && overlap(t, other, self.rounding)
-            })
+        let numbers = 0..self.triangles.len() as u32;
+        let (covered, clear): (Vec<u32>, Vec<u32>) = numbers.partition(|&i| self.is_covered(i));
+        if covered.is_empty() {
+            return;
+        }
+        let tree = |numbers: &[u32]| {
+            TriangleTree::of(numbers.iter().map(|&i| (self.triangles[i as usize], i)).collect())
         };
-        let covered: Vec<usize> = (0..self.triangles.len()).filter(|&i| is_covered(i)).collect();
-        self.has_layers = !covered.is_empty();
-        for i in covered {
+        self.layers = Some(Layers { clear: (!clear.is_empty()).then(|| tree(&clear)), covered: tree(&covered) });
+        for i in covered.into_iter().map(|i| i as usize) {
             let [a, b, c] = self.triangles[i];
             let middle = std::array::from_fn(|k| (a[k] + b[k] + c[k]) / 3.0);
             self.seen[i] = if self.is_below(middle) { Seen::NotMiddle } else { Seen::Middle };
         }
     }
 
+    /// Whether some other triangle may lie above some part of this one.
+    fn is_covered(&self, i: u32) -> bool {
+        let t = &self.triangles[i as usize];
+        let bounds = plan_bounds(std::slice::from_ref(t));
+        let lowest = t.iter().fold(f64::INFINITY, |z, p| z.min(p[2])) + self.rounding;
+        self.tree.any_near(bounds, lowest, 0.0, |other, j| {
+            j != i
+                && other.iter().any(|&p| self.height_off(p, i) > self.rounding)
+                && t.iter().any(|&p| self.height_off(p, j) < -self.rounding)
+                && overlap(t, other, self.rounding)
+        })
+    }
+
     /// Height over (x, y), of the uppermost layer.
     pub fn height(&self, x: f64, y: f64) -> Option<f64> {
         // Edges belong to the faces at them, else a point exactly on one falls through; farther off, a neighbour must not lift it.
         let near = self.tree.highest(x, y, self.edge);
-        if near.is_some() && !self.has_layers {
+        if near.is_some() && self.layers.is_none() {
             return near.map(|n| n.point[2]);
         }
         let wide = self.tree.highest(x, y, self.rounding);
@@ -97,11 +119,13 @@ impl Skin {
         Some(best.point[2])
     }
 
-    /// Whether a point is off the plane of a triangle.
+    /// How far a point is above the plane of a triangle, along its normal.
+    fn height_off(&self, p: [f64; 3], triangle: u32) -> f64 {
+        dot(sub(p, self.triangles[triangle as usize][0]), self.normals[triangle as usize])
+    }
+
     fn is_off(&self, p: [f64; 3], triangle: u32) -> bool {
-        let ([corner, ..], n) = (self.triangles[triangle as usize], self.normals[triangle as usize]);
-        let away: f64 = (0..3).map(|k| (p[k] - corner[k]) * n[k]).sum();
-        away.abs() > self.rounding
+        self.height_off(p, triangle).abs() > self.rounding
     }
 
     /// Whether the skin lies above a point.
@@ -111,27 +135,30 @@ impl Skin {
 
     /// The closest point that is seen from above.
     pub fn closest(&self, p: [f64; 3]) -> Closest {
-        if !self.has_layers {
-            return self.tree.closest(p);
-        }
-        let is_seen = |i: u32, point| self.seen[i as usize] == Seen::All || !self.is_below(point);
-        let found = self.tree.closest_where(p, is_seen);
-        if found.distance2 < f64::INFINITY {
-            return found;
+        let Some(Layers { clear, covered }) = &self.layers else { return self.tree.closest(p) };
+        let none = Closest { point: p, triangle: 0, distance2: f64::INFINITY, is_inner: false };
+        let best = clear.as_ref().map_or(none, |clear| clear.closest(p));
+        let best = covered.closer(p, best, |point| !self.is_below(point));
+        if best.distance2 < f64::INFINITY {
+            return best;
         }
         // Of every triangle the closest point is below another: up from the nearest.
-        let below = self.tree.closest(p).point;
-        let above = self.tree.highest(below[0], below[1], self.rounding);
-        let (point, triangle) = above.map_or((below, 0), |above| (above.point, above.triangle));
-        Closest { point, triangle, distance2: square(std::array::from_fn(|k| point[k] - p[k])) }
+        let below = self.tree.closest(p);
+        let above = self.tree.highest(below.point[0], below.point[1], self.rounding);
+        above.map_or(below, |Over { point, triangle }| Closest {
+            point,
+            triangle,
+            distance2: square(sub(point, p)),
+            is_inner: false,
+        })
     }
 
-    /// Unit normal at a point of the skin on a triangle, upwards. On an edge and in a corner it is the mean of those of the faces
+    /// Unit normal at a closest point, upwards. On an edge and in a corner it is the mean of those of the faces
     /// there, weighted by their angles (Bærentzen, Aanæs 2005, *Signed distance computation using the angle weighted pseudonormal*):
     /// with that of one face alone, a vertex on a ridge is drawn off to that side.
-    pub fn normal(&self, point: [f64; 3], triangle: u32) -> [f64; 3] {
+    pub fn normal(&self, &Closest { point, triangle, is_inner, .. }: &Closest) -> [f64; 3] {
         let own = self.normals[triangle as usize];
-        if angle_at(&self.triangles[triangle as usize], point, self.edge).is_none_or(|angle| angle > 4.0) {
+        if is_inner {
             return own;
         }
         let mut around = Vec::new();

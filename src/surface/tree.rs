@@ -3,7 +3,7 @@
 use super::triangle::{Triangle, closest_on_triangle, over_triangle, square, sub};
 
 /// Triangles in a leaf.
-const LEAF: usize = 4;
+const LEAF: usize = 2;
 
 /// What a search finds: a point, its triangle, and its squared distance.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -14,6 +14,8 @@ pub struct Closest {
     pub triangle: u32,
     /// Squared distance, m².
     pub distance2: f64,
+    /// Whether the point is clearly within the triangle, away from its edges.
+    pub is_inner: bool,
 }
 
 /// A point over a point of the plan, m, and its triangle.
@@ -26,7 +28,7 @@ pub struct Over {
 }
 
 /// The corners of a triangle and its number.
-type Corners = (Triangle, u32);
+pub(super) type Corners = (Triangle, u32);
 
 /// An axis-aligned box.
 #[derive(Clone, Copy, Debug)]
@@ -88,22 +90,26 @@ impl TriangleTree {
         if triangles.is_empty() {
             return None;
         }
-        let mut sorted: Vec<_> = triangles.iter().zip(0u32..).map(|(&t, i)| (t, i)).collect();
+        Some(Self::of(triangles.iter().zip(0u32..).map(|(&t, i)| (t, i)).collect()))
+    }
+
+    /// Builds the tree of triangles with their numbers, at least one.
+    pub(super) fn of(mut triangles: Vec<Corners>) -> Self {
         let mut nodes = Vec::with_capacity(2 * triangles.len() / LEAF + 1);
-        split(&mut sorted, 0, &mut nodes);
-        Some(Self { nodes, triangles: sorted })
+        split(&mut triangles, 0, &mut nodes);
+        Self { nodes, triangles }
     }
 
     /// The point of all triangles that is closest to `p`. Of equally close triangles, the one found first.
     pub fn closest(&self, p: [f64; 3]) -> Closest {
-        self.closest_where(p, |_, _| true)
+        let none = Closest { point: p, triangle: 0, distance2: f64::INFINITY, is_inner: false };
+        self.closer(p, none, |_| true)
     }
 
-    /// As [`TriangleTree::closest`], but a triangle counts only where `holds` allows its closest point. At an infinite distance
-    /// where none is allowed.
+    /// The closest point to `p` that is closer than `best` and allowed by `holds`; else `best`. Of a triangle no other point than
+    /// its closest is asked for.
     #[inline]
-    pub fn closest_where(&self, p: [f64; 3], holds: impl Fn(u32, [f64; 3]) -> bool) -> Closest {
-        let mut best = Closest { point: p, triangle: 0, distance2: f64::INFINITY };
+    pub(super) fn closer(&self, p: [f64; 3], mut best: Closest, holds: impl Fn([f64; 3]) -> bool) -> Closest {
         // Depth is at most log₂ of the number of triangles, far below 64.
         let (mut stack, mut top) = ([(0u32, 0.0f64); 64], 1);
         while top > 0 {
@@ -114,11 +120,11 @@ impl TriangleTree {
             }
             let node = &self.nodes[index as usize];
             if node.right == 0 {
-                for (corners, triangle) in self.leaf(node) {
-                    let point = closest_on_triangle(p, corners);
+                for &(ref corners, triangle) in self.leaf(node) {
+                    let (point, is_inner) = closest_on_triangle(p, corners);
                     let distance2 = square(sub(point, p));
-                    if distance2 < best.distance2 && holds(*triangle, point) {
-                        best = Closest { point, triangle: *triangle, distance2 };
+                    if distance2 < best.distance2 && holds(point) {
+                        best = Closest { point, triangle, distance2, is_inner };
                     }
                 }
                 continue;
@@ -239,11 +245,11 @@ mod tests {
             let p = std::array::from_fn(|_| 14.0 * random::unit(&mut rng) - 2.0);
             let all = triangles
                 .iter()
-                .map(|t| square(sub(closest_on_triangle(p, t), p)))
+                .map(|t| square(sub(closest_on_triangle(p, t).0, p)))
                 .fold(f64::INFINITY, f64::min);
             let found = tree.closest(p);
             assert_eq!(found.distance2, all);
-            let on = closest_on_triangle(found.point, &triangles[found.triangle as usize]);
+            let (on, _) = closest_on_triangle(found.point, &triangles[found.triangle as usize]);
             assert!(square(sub(on, found.point)) < 1e-20);
             let z =
                 triangles.iter().filter_map(|t| over_triangle([p[0], p[1]], t, 0.0)).map(|q| q[2]).reduce(f64::max);

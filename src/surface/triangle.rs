@@ -19,19 +19,20 @@ pub(super) fn square(a: [f64; 3]) -> f64 {
 
 /// Closest point of a triangle by the regions of its corners, edges and inside (Ericson 2005, *Real-Time Collision Detection*,
 /// §5.1.5). On an edge it depends on nothing but that edge, so that triangles that share it, their corners in the same order,
-/// give the same point.
-pub(super) fn closest_on_triangle(p: [f64; 3], &[a, b, c]: &Triangle) -> [f64; 3] {
+/// give the same point. Beside it, whether it is clearly within, farther from each edge than 1e-6 of the height there.
+#[inline]
+pub(super) fn closest_on_triangle(p: [f64; 3], &[a, b, c]: &Triangle) -> ([f64; 3], bool) {
     let (ab, ac) = (sub(b, a), sub(c, a));
-    let along = |o: [f64; 3], d: [f64; 3], s: f64| std::array::from_fn(|k| o[k] + s * d[k]);
+    let along = |o: [f64; 3], d: [f64; 3], s: f64| (std::array::from_fn(|k| o[k] + s * d[k]), false);
     let ap = sub(p, a);
     let (d1, d2) = (dot(ab, ap), dot(ac, ap));
     if d1 <= 0.0 && d2 <= 0.0 {
-        return a;
+        return (a, false);
     }
     let bp = sub(p, b);
     let (d3, d4) = (dot(ab, bp), dot(ac, bp));
     if d3 >= 0.0 && d4 <= d3 {
-        return b;
+        return (b, false);
     }
     let vc = d1 * d4 - d3 * d2;
     if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
@@ -40,7 +41,7 @@ pub(super) fn closest_on_triangle(p: [f64; 3], &[a, b, c]: &Triangle) -> [f64; 3
     let cp = sub(p, c);
     let (d5, d6) = (dot(ab, cp), dot(ac, cp));
     if d6 >= 0.0 && d5 <= d6 {
-        return c;
+        return (c, false);
     }
     let vb = d5 * d2 - d1 * d6;
     if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
@@ -53,7 +54,8 @@ pub(super) fn closest_on_triangle(p: [f64; 3], &[a, b, c]: &Triangle) -> [f64; 3
     }
     let denominator = 1.0 / (va + vb + vc);
     let (v, w) = (vb * denominator, vc * denominator);
-    std::array::from_fn(|k| a[k] + v * ab[k] + w * ac[k])
+    let is_inner = v.min(w).min(1.0 - v - w) > 1e-6;
+    (std::array::from_fn(|k| a[k] + v * ab[k] + w * ac[k]), is_inner)
 }
 
 /// The point of a triangle over a point of the plan, or the nearest in plan where that is within `tolerance` beside it; `None`
@@ -118,10 +120,10 @@ pub(super) fn angle_at(t: &Triangle, p: [f64; 3], reach: f64) -> Option<f64> {
         return Some(libm::acos(cosine.clamp(-1.0, 1.0)));
     }
     // An edge is the triangle without its third corner.
-    if (0..3).any(|k| near(closest_on_triangle(p, &[t[k], t[(k + 1) % 3], t[(k + 1) % 3]]))) {
+    if (0..3).any(|k| near(closest_on_triangle(p, &[t[k], t[(k + 1) % 3], t[(k + 1) % 3]]).0)) {
         return Some(PI);
     }
-    near(closest_on_triangle(p, t)).then_some(TAU)
+    near(closest_on_triangle(p, t).0).then_some(TAU)
 }
 
 #[cfg(test)]
@@ -147,7 +149,7 @@ pub(super) mod tests {
         let mut rng = random::stream(7, 0, 0);
         for t in soup(100) {
             let p: [f64; 3] = std::array::from_fn(|k| t[0][k] + 4.0 * random::unit(&mut rng) - 2.0);
-            let found = square(sub(closest_on_triangle(p, &t), p));
+            let found = square(sub(closest_on_triangle(p, &t).0, p));
             for i in 0..=20 {
                 for j in 0..=(20 - i) {
                     let (v, w) = (f64::from(i) / 20.0, f64::from(j) / 20.0);
