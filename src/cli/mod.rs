@@ -31,9 +31,11 @@ mod progress;
 mod quote;
 mod report;
 mod run;
+mod signals;
 mod skeleton;
 mod topology;
 mod verify;
+mod writing;
 
 pub use console::{Console, ConsoleArgs};
 pub use error::CliError;

@@ -4,20 +4,26 @@ use super::config_args::ConfigArgs;
 use super::folder_args::refuse_file;
 use super::progress::{Display, duration};
 use super::quote::quote;
-use super::{CliError, Console, exit};
-use quadrille::config::{Config, to_toml};
-use quadrille::output::folder::{Folder, FolderError, Opening, REPORT};
+use super::writing::WritingDisplay;
+use super::{CliError, Console, exit, signals};
+use quadrille::config::{Config, Project, to_toml};
+use quadrille::mesh::Code;
+use quadrille::output::folder::{Folder, FolderError, Opening, PARETO, REPORT, excel_name};
+use quadrille::output::manifest::Status;
 use quadrille::output::obstacles::Obstacles;
 use quadrille::output::report;
-use quadrille::output::results::{self, Run, Sitting};
+use quadrille::output::results::{self, Run};
+use quadrille::output::sitting::Sitting;
 use quadrille::output::table::Dialect;
 use quadrille::random;
-use quadrille::search::{self, Ended, Outcome, Settings, StopFlag, Store, ThreadServer};
+use quadrille::search::{
+    self, Ended, Evaluation, GenerationRow, Observer, Outcome, Progress, Settings, StopFlag, Store, ThreadServer,
+};
 use quadrille::study::Study;
 use std::io::ErrorKind;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::time::{Instant, SystemTime};
+use std::time::Instant;
 
 /// Evolve designs and write the Pareto front, all evaluated designs, meshes, pictures and a report.
 ///
@@ -65,39 +71,56 @@ enum CsvDialect {
 
 /// Runs the search and writes the results folder.
 pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
-    let mut config = args.config.load(&args.sets())?;
-    let study = args.config.study(&config)?;
-    let folder = args.open_folder(&config)?;
-    for warning in study.warnings() {
+    let mut project = args.config.load(&args.sets())?;
+    let study = args.config.study(&project)?;
+    let mut folder = args.open_folder(&project.config)?;
+    for warning in study.warnings().into_iter().chain(folder.unlocked()) {
         console.warn(&warning);
     }
-    fix_seed(&mut config, &folder, args.resume, console)?;
-    let record =
-        results::record(&config, args.config.folder()).map_err(|e| CliError::Input(e.to_string()))?;
-    let mut store = open_store(&folder, record, args.resume)?;
-    let (started, clock) = (SystemTime::now(), Instant::now());
-    let (outcome, threads) = evolve(&study, &config, &mut store, console)?;
-    let sitting = Sitting { started, seconds: clock.elapsed().as_secs_f64(), threads };
-    let run = Run { study: &study, config: &config, config_folder: args.config.folder(), outcome: &outcome };
-    let failed = |error: results::ResultsError| CliError::Failed(error.to_string());
-    if let Ended::Interrupted(signal) = outcome.ended {
-        run.write_interrupted(&folder, &sitting).map_err(failed)?;
-        console.always(&format!("interrupted; go on with: {}", args.resume_command(&folder)));
-        return Ok(ExitCode::from(exit::interrupted(signal)));
+    fix_seed(&mut project.config, &folder, args.resume, console)?;
+    let (mut store, sitting) = args.begin(&mut folder, &project)?;
+    let stop = StopFlag::new();
+    let clock = Instant::now();
+    let mut watch = Watch { display: Display::new(&project.config, study.baseline(), *console), sitting, folder };
+    let outcome = evolve(&study, &project.config, &mut store, &stop, &mut watch, console)?;
+    let Watch { mut sitting, mut folder, .. } = watch;
+    let dialect = args.dialect(&folder);
+    let run = Run { study: &study, project: &project, outcome: &outcome, dialect };
+    let is_cut = matches!(outcome.ended, Ended::Interrupted(_));
+    let names = if is_cut { run.table_names() } else { run.names() };
+    sitting.searched(&mut folder, &outcome, store.worked(), names).map_err(failed)?;
+    let is_whole = if is_cut {
+        run.write_tables(&mut folder).map_err(failed)?;
+        false
+    } else {
+        console.note(&match outcome.front.len() {
+            0 => "writing the designs that came nearest".to_owned(),
+            count => format!("writing {count} designs of the front"),
+        });
+        let threads = sitting.threads();
+        run.write(&mut folder, threads, &mut WritingDisplay::new(&stop, *console)).map_err(failed)?
+    };
+    let status = if is_whole { Status::Finished } else { Status::Interrupted };
+    sitting.end(&mut folder, status).map_err(failed)?;
+    for warning in folder.take_warnings() {
+        console.warn(&warning);
     }
-    let dialect = args.csv_dialect.map_or(Dialect::Canonical, |CsvDialect::ExcelEu| Dialect::ExcelEu);
-    console.note(&match outcome.front.len() {
-        0 => "writing the designs that came nearest".to_owned(),
-        count => format!("writing {count} designs of the front"),
-    });
-    run.write(&folder, &sitting, dialect).map_err(failed)?;
+    if !is_whole {
+        console.always(&format!("interrupted; go on with: {}", args.resume_command(&folder)));
+        return Ok(ExitCode::from(exit::interrupted(stop.raised().unwrap_or_default())));
+    }
     drop(store);
     summarise(&study, &outcome, &folder, clock, console);
     let code = if outcome.front.is_empty() { exit::NOTHING_FEASIBLE } else { exit::DONE };
     // The report is made from the folder: no need to hold every design twice.
     drop(outcome);
-    write_report(&folder)?;
+    write_report(&mut folder)?;
     Ok(ExitCode::from(code))
+}
+
+/// An error of the work itself; for `map_err`.
+fn failed(error: impl std::fmt::Display) -> CliError {
+    CliError::Failed(error.to_string())
 }
 
 impl Args {
@@ -127,6 +150,38 @@ impl Args {
             }
             refused => CliError::Input(refused.to_string()),
         })
+    }
+
+    /// Refuses a run that cannot be gone on with, then makes the folder this run's.
+    fn begin(&self, folder: &mut Folder, project: &Project) -> Result<(Store, Sitting), CliError> {
+        let record = results::record(project);
+        let refused = |error: search::StoreError| match error {
+            search::StoreError::Io { .. } => CliError::Failed(error.to_string()),
+            refused => CliError::Input(refused.to_string()),
+        };
+        let threads = match project.config.run.threads {
+            0 => std::thread::available_parallelism().map_or(1, usize::from),
+            threads => threads,
+        };
+        let begin = |folder: &mut Folder| -> Result<Sitting, CliError> {
+            folder.begin().map_err(failed)?;
+            Sitting::begin(folder, project, threads).map_err(failed)
+        };
+        if self.resume {
+            let store = Store::resume(folder.path(), record).map_err(refused)?;
+            Ok((store, begin(folder)?))
+        } else {
+            let sitting = begin(folder)?;
+            Ok((Store::create(folder.path(), record).map_err(refused)?, sitting))
+        }
+    }
+
+    /// Which copies of the tables are wanted: those that are asked for, or that there are already.
+    fn dialect(&self, folder: &Folder) -> Dialect {
+        match self.csv_dialect {
+            None if !folder.lists(&excel_name(PARETO)) => Dialect::Canonical,
+            _ => Dialect::ExcelEu,
+        }
     }
 
     /// What a user types to go on.
@@ -161,23 +216,48 @@ fn fix_seed(config: &mut Config, folder: &Folder, resume: bool, console: &Consol
     Ok(())
 }
 
-fn open_store(folder: &Folder, record: serde_json::Value, resume: bool) -> Result<Store, CliError> {
-    let opened =
-        if resume { Store::resume(folder.path(), record) } else { Store::create(folder.path(), record) };
-    opened.map_err(|error| match error {
-        search::StoreError::Io { .. } => CliError::Failed(error.to_string()),
-        refused => CliError::Input(refused.to_string()),
-    })
+/// Who hears of the search: the user, and the manifest.
+struct Watch {
+    display: Display,
+    sitting: Sitting,
+    folder: Folder,
 }
 
-/// Runs the search; gives the outcome and the number of threads.
+impl Observer for Watch {
+    fn design(&mut self, code: Code, evaluation: &Evaluation) {
+        self.display.design(code, evaluation);
+    }
+
+    fn evaluated(&mut self, progress: &Progress) {
+        self.display.evaluated(progress);
+    }
+
+    fn generation(&mut self, row: &GenerationRow) {
+        self.display.generation(row);
+        // A manifest that cannot be written ends the run no sooner than a table that cannot.
+        if let Err(error) = self.sitting.generation(&mut self.folder, row) {
+            self.display.warning(&error.to_string());
+        }
+    }
+
+    fn notice(&mut self, message: &str) {
+        self.display.notice(message);
+    }
+
+    fn warning(&mut self, message: &str) {
+        self.display.warning(message);
+    }
+}
+
+/// Runs the search.
 fn evolve(
     study: &Study,
     config: &Config,
     store: &mut Store,
+    stop: &StopFlag,
+    watch: &mut Watch,
     console: &Console,
-) -> Result<(Outcome, usize), CliError> {
-    let failed = |error: &dyn std::fmt::Display| CliError::Failed(error.to_string());
+) -> Result<Outcome, CliError> {
     let settings = Settings {
         search: config.search.clone(),
         objectives: study.objectives.len(),
@@ -185,32 +265,28 @@ fn evolve(
         reference: config.objectives.reference.clone(),
         seed: config.run.seed.unwrap_or_default(),
     };
-    let stop = StopFlag::new();
-    stop.install().map_err(|error| failed(&error))?;
-    let server = ThreadServer::new(study, config.run.threads).map_err(|error| failed(&error))?;
-    let threads = match config.run.threads {
-        0 => std::thread::available_parallelism().map_or(1, usize::from),
-        threads => threads,
-    };
+    let tell = watch.display.teller();
+    let told = "ending with the evaluations in flight; another signal after a second aborts at once";
+    signals::install(stop, move || tell(told)).map_err(failed)?;
+    let server = ThreadServer::new(study, config.run.threads).map_err(failed)?;
     console.note(&format!(
-        "{}: population {}, {} generations, {threads} threads, minimising {}",
+        "{}: population {}, {} generations, {} threads, minimising {}",
         config.run.name.as_deref().unwrap_or_default(),
         config.search.population,
         config.search.generations,
+        watch.sitting.threads(),
         config.objectives.minimise.join(", ")
     ));
     console.detail(&to_toml(config));
-    let mut display = Display::new(config, study.baseline(), *console);
-    let outcome = search::run(study, &server, &settings, &stop, Some(store), &mut display);
-    display.finish();
-    Ok((outcome.map_err(|error| failed(&error))?, threads))
+    let outcome = search::run(study, &server, &settings, stop, Some(store), watch);
+    watch.display.finish();
+    outcome.map_err(failed)
 }
 
-fn write_report(folder: &Folder) -> Result<(), CliError> {
-    let failed = |error: &dyn std::fmt::Display| CliError::Failed(error.to_string());
-    let data = report::read(folder.path()).map_err(|error| failed(&error))?;
-    let page = report::render(&data).map_err(|error| failed(&error))?;
-    folder.write(REPORT, page.as_bytes()).map_err(|error| failed(&error))
+fn write_report(folder: &mut Folder) -> Result<(), CliError> {
+    let data = report::read(folder.path()).map_err(failed)?;
+    let page = report::render(&data).map_err(failed)?;
+    folder.write(REPORT, page.as_bytes()).map_err(failed)
 }
 
 /// What was found, on stdout: the folder, and the best of each objective.

@@ -4,8 +4,8 @@ use super::curve::{Curve, signed_area};
 use super::error::DomainError;
 use super::kinks;
 use super::params::{CornerRule, Corners, LoopParams};
-use crate::io::{LengthUnit, MEET, obj};
-use std::path::{Path, PathBuf};
+use crate::io::{Input, Inputs, LengthUnit, MEET, obj};
+use std::path::PathBuf;
 
 /// What tells the corners of a curve.
 pub(super) enum Marked {
@@ -30,7 +30,7 @@ impl Marked {
 pub(super) fn curve(
     number: usize,
     given: &LoopParams,
-    base_dir: &Path,
+    inputs: &Inputs,
 ) -> Result<(Curve, Marked, f64), DomainError> {
     let (curve, marked) = match given {
         LoopParams::Polyline { points_m, corners, corner_angle_deg } => {
@@ -59,7 +59,8 @@ pub(super) fn curve(
             ))
         }
         LoopParams::Obj { file, unit, polyline: index, corners, corner_angle_deg } => {
-            let drawn = Drawn::read(number, &base_dir.join(file), *unit, *index)?;
+            let read = inputs.get(file).map_err(|error| DomainError::File { loop_number: number, error })?;
+            let drawn = Drawn::read(number, read, *unit, *index)?;
             let (curve, marked) = polyline(number, drawn.points.clone(), corners, *corner_angle_deg)
                 .map_err(|error| drawn.locate(error))?;
             return Ok((curve, marked, drawn.gap));
@@ -109,9 +110,14 @@ struct Drawn {
 impl Drawn {
     /// It is closed when it ends in its first vertex, or within [`MEET`] of its size from there: exporters write that vertex twice, and
     /// round it.
-    fn read(loop_number: usize, file: &Path, unit: LengthUnit, index: usize) -> Result<Self, DomainError> {
-        let obj = obj::read(file, unit).map_err(|error| DomainError::File { loop_number, error })?;
-        let name = || file.display().to_string();
+    fn read(
+        loop_number: usize,
+        input: Input<'_>,
+        unit: LengthUnit,
+        index: usize,
+    ) -> Result<Self, DomainError> {
+        let obj = obj::read(input, unit).map_err(|error| DomainError::File { loop_number, error })?;
+        let name = || input.file.display().to_string();
         let Some(polyline) = obj.polylines.get(index) else {
             let (found, hint) = (obj.polylines.len(), obj.hint());
             return Err(DomainError::NoSuchPolyline { loop_number, file: name(), polyline: index, found, hint });
@@ -130,7 +136,7 @@ impl Drawn {
         let gap = open.max(obj.polyline_gaps[index]);
         // Rounding is not worth a word.
         let gap = if gap > 1e-9 * reach { gap } else { 0.0 };
-        Ok(Self { loop_number, file: file.to_owned(), points, point_lines, line, gap })
+        Ok(Self { loop_number, file: input.file.to_owned(), points, point_lines, line, gap })
     }
 
     /// A fault of its points with their lines; or, where they make sense with y up, that.

@@ -1,22 +1,20 @@
 //! Meshes in COMPAS JSON: 2.x, the 1.x wrapper, and the bare dictionaries before it (ECOSYSTEM §3a).
 
 use super::text::decode;
-use super::{ReadError, read_bytes};
+use super::{Input, ReadError};
 use crate::json;
 use crate::mesh::BaseMesh;
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
-use std::path::Path;
 
 /// Reads the first mesh of a file: vertices in the order of their keys, faces in that of theirs, and the poles of a COMPAS
 /// pseudo-quad mesh (`face_pole`).
 ///
 /// # Errors
-/// A file that cannot be opened, broken JSON with its line, no mesh in it, or the key whose value is wrong.
-pub fn read(file: &Path) -> Result<BaseMesh, ReadError> {
-    let bytes = read_bytes(file)?;
+/// Broken JSON with its line, no mesh in it, or the key whose value is wrong.
+pub fn read(Input { file, bytes }: Input<'_>) -> Result<BaseMesh, ReadError> {
     let text =
-        decode(&bytes).map_err(|(line, reason)| ReadError::Line { file: file.to_owned(), line, reason })?;
+        decode(bytes).map_err(|(line, reason)| ReadError::Line { file: file.to_owned(), line, reason })?;
     let content = |reason: String| ReadError::Content { file: file.to_owned(), reason };
     let value: Value = json::read(&text).map_err(|error| content(error.to_string()))?;
     from_value(&value).map_err(content)

@@ -6,10 +6,9 @@
 
 use super::join::{Chain, join};
 use super::text::{decode_lossy, lines};
-use super::{LengthUnit, ReadError, read_bytes};
+use super::{Input, LengthUnit, ReadError};
 use crate::mesh::BaseMesh;
 use std::fmt::Write as _;
-use std::path::Path;
 
 /// So that products of coordinates stay finite.
 const MAX_COORDINATE: f64 = 1e50;
@@ -49,16 +48,8 @@ impl ObjFile {
 /// Reads a file whose coordinates have the given unit.
 ///
 /// # Errors
-/// A file that cannot be opened, or the first line that is wrong.
-pub fn read(file: &Path, unit: LengthUnit) -> Result<ObjFile, ReadError> {
-    read_from(&read_bytes(file)?, file, unit)
-}
-
-/// As [`read`], from the bytes of a file; its name is for messages only.
-///
-/// # Errors
 /// The first line that is wrong.
-pub fn read_from(bytes: &[u8], file: &Path, unit: LengthUnit) -> Result<ObjFile, ReadError> {
+pub fn read(Input { file, bytes }: Input<'_>, unit: LengthUnit) -> Result<ObjFile, ReadError> {
     let parsed = decode_lossy(bytes).and_then(|text| parse(&text));
     let mut obj =
         parsed.map_err(|(line, reason)| ReadError::Line { file: file.to_owned(), line, reason })?;

@@ -1,5 +1,6 @@
 //! `manifest.json`: what was run, with what, where and when. The one file that holds times.
 
+use super::ledger::Files;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -7,6 +8,8 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Version of the manifest's own layout.
 pub const VERSION: u32 = 1;
+/// The program that writes it.
+pub const PROGRAM: &str = env!("CARGO_PKG_NAME");
 
 /// The manifest of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -35,24 +38,29 @@ pub struct Manifest {
     pub ended: String,
     /// Counts of the whole run.
     pub counts: Counts,
-    /// Seconds of searching, added up over all sittings that ended with a manifest.
+    /// Seconds of searching, added up over all sittings; of one that was killed, up to its last finished generation.
     pub seconds: f64,
     /// The machine.
     pub host: Host,
     /// The config as resolved, as TOML.
     pub config: String,
-    /// Folder to which the paths in it are relative.
+    /// Folder to which the paths in it are relative, from the root and without `..`.
     pub config_folder: String,
     /// SHA-256 of `config`.
     pub config_sha256: String,
-    /// SHA-256 of every file that the config names.
+    /// SHA-256 of every file that the config names, as it was when the run began.
     pub input_files: BTreeMap<String, String>,
+    /// Every file that the run has written here: the only ones that it replaces or removes.
+    #[serde(default)]
+    pub files: Files,
 }
 
-/// How a run ended.
+/// How a run ended, if it did.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
+    /// Not at all so far: it goes on, or it was killed.
+    Running,
     /// By its own limits.
     Finished,
     /// By a signal; it can be resumed.
@@ -105,7 +113,9 @@ impl Host {
 impl Manifest {
     /// The manifest of a results folder, if it has one that can be read.
     pub fn read(folder: &Path) -> Option<Self> {
-        serde_json::from_slice(&std::fs::read(folder.join(super::folder::MANIFEST)).ok()?).ok()
+        let bytes = std::fs::read(folder.join(super::folder::MANIFEST)).ok()?;
+        let manifest: Self = serde_json::from_slice(&bytes).ok()?;
+        (manifest.program == PROGRAM).then_some(manifest)
     }
 
     /// The file.
@@ -164,6 +174,7 @@ mod tests {
                 config_folder: ".".into(),
                 config_sha256: String::new(),
                 input_files: BTreeMap::new(),
+                files: Files::new(),
             }
         }
     }

@@ -10,7 +10,9 @@ pub mod explanation;
 pub mod explorer;
 pub mod folder;
 pub mod generations;
+pub mod ledger;
 pub mod load;
+pub mod lock;
 pub mod manifest;
 pub mod number;
 pub mod obj;
@@ -20,6 +22,7 @@ pub mod report;
 pub mod results;
 #[cfg(test)]
 mod sample;
+pub mod sitting;
 pub mod svg;
 pub mod table;
 pub mod vtu;

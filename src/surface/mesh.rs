@@ -5,7 +5,7 @@ use super::skin::Skin;
 use super::triangle::{Triangle, square, sub, vector_area};
 use super::{Surface, SurfaceKind};
 use crate::io::obj::{self, ObjFile};
-use crate::io::{LengthUnit, ReadError};
+use crate::io::{Input, LengthUnit, ReadError};
 use std::path::Path;
 
 /// A mesh as a surface: its upper skin. Quads are cut along their shorter diagonal; vertices may be unwelded, faces wound either
@@ -21,9 +21,9 @@ impl MeshSurface {
     /// Reads an OBJ file whose coordinates have the given unit.
     ///
     /// # Errors
-    /// A file that cannot be read, with the line at fault; a file without faces.
-    pub fn read(file: &Path, unit: LengthUnit) -> Result<Self, SurfaceError> {
-        let obj = obj::read(file, unit)?;
+    /// A line at fault; a file without faces.
+    pub fn read(Input { file, bytes }: Input<'_>, unit: LengthUnit) -> Result<Self, SurfaceError> {
+        let obj = obj::read(Input { file, bytes }, unit)?;
         check_faces(&obj, file)?;
         let no_faces = || SurfaceError::NoFaces { file: file.to_owned(), hint: obj.hint() };
         let mut surface = Self::new(&obj.vertices, &obj.faces).ok_or_else(no_faces)?;

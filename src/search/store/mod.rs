@@ -50,6 +50,7 @@ pub struct Store {
     config: Value,
     journal: Journal,
     found: Found,
+    worked: bool,
 }
 
 /// What an earlier sitting left.
@@ -82,7 +83,7 @@ impl Store {
             }
         }
         let journal = Journal::create(&folder.join(JOURNAL), &config)?;
-        Ok(Self { folder: folder.to_path_buf(), config, journal, found: Found::default() })
+        Ok(Self { folder: folder.to_path_buf(), config, journal, found: Found::default(), worked: false })
     }
 
     /// Goes on in `folder`; starts anew where there is nothing to go on from.
@@ -117,7 +118,7 @@ impl Store {
             found.notices.push(format!("{JOURNAL}: damaged lines left out: {}", left.damaged));
         }
         found.entries = left.entries;
-        Ok(Self { folder: folder.to_path_buf(), config, journal, found })
+        Ok(Self { folder: folder.to_path_buf(), config, journal, found, worked: false })
     }
 
     /// The config recorded in `folder`, if a run was begun there: the seed that was drawn is in it.
@@ -131,6 +132,11 @@ impl Store {
             }
         }
         Ok(journal::read(&folder.join(JOURNAL))?.config)
+    }
+
+    /// Whether anything was evaluated, or a generation finished, since the files were opened.
+    pub fn worked(&self) -> bool {
+        self.worked
     }
 
     /// The state to go on from.
@@ -175,11 +181,13 @@ impl Store {
         child: &Child,
         evaluation: &Evaluation,
     ) -> Result<(), StoreError> {
+        self.worked = true;
         self.journal.append(&Entry::of(generation, slot, child, evaluation))
     }
 
     /// Writes the state after a finished generation; the checkpoint before becomes the previous one.
     pub(crate) fn checkpoint(&mut self, state: &State) -> Result<(), StoreError> {
+        self.worked = true;
         self.journal.sync()?;
         let (newest, previous) = (self.folder.join(CHECKPOINT), self.folder.join(CHECKPOINT_PREVIOUS));
         let bytes = Checkpoint::of(state, &self.config).to_bytes();
