@@ -120,7 +120,13 @@ impl Drawn {
         let name = || input.file.display().to_string();
         let Some(polyline) = obj.polylines.get(index) else {
             let (found, hint) = (obj.polylines.len(), obj.hint());
-            return Err(DomainError::NoSuchPolyline { loop_number, file: name(), polyline: index, found, hint });
+            return Err(DomainError::NoSuchPolyline {
+                loop_number,
+                file: name(),
+                polyline: index,
+                found,
+                hint,
+            });
         };
         let mut points: Vec<_> = polyline.iter().map(|&v| obj.vertices[v as usize]).collect();
         let mut point_lines: Vec<_> = polyline.iter().map(|&v| obj.vertex_lines[v as usize]).collect();

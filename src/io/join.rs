@@ -41,9 +41,8 @@ pub(super) fn join(pieces: Vec<Chain>, vertices: &[[f64; 3]]) -> Vec<Chain> {
 fn near_ends(chains: &[Chain], vertices: &[[f64; 3]]) -> BTreeMap<u32, u32> {
     let at = |v: u32| vertices[v as usize];
     let used = || chains.iter().flat_map(|chain| &chain.vertices).map(|&v| at(v));
-    let [low, high] = [f64::min, f64::max].map(|pick| {
-        used().reduce(|a, b| std::array::from_fn(|k| pick(a[k], b[k]))).unwrap_or_default()
-    });
+    let [low, high] = [f64::min, f64::max]
+        .map(|pick| used().reduce(|a, b| std::array::from_fn(|k| pick(a[k], b[k]))).unwrap_or_default());
     let reach = MEET * distance(low, high);
     let open = chains.iter().filter(|chain| at(chain.ends()[0]) != at(chain.ends()[1]));
     let mut ends: Vec<u32> = open.flat_map(Chain::ends).collect();
@@ -68,7 +67,8 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
 
 /// Joins chains at the nodes that their ends belong to.
 fn link(pieces: Vec<Chain>, node: &dyn Fn(u32) -> u32, vertices: &[[f64; 3]]) -> Vec<Chain> {
-    let mut links = Links { node, vertices, meeting: BTreeMap::new(), used: vec![false; pieces.len()], pieces };
+    let mut links =
+        Links { node, vertices, meeting: BTreeMap::new(), used: vec![false; pieces.len()], pieces };
     for (i, piece) in links.pieces.iter().enumerate() {
         let [first, last] = piece.ends().map(node);
         if first != last {
@@ -106,7 +106,9 @@ impl Links<'_> {
         loop {
             let [first, last] = chain.ends();
             let (start, here) = ((self.node)(first), (self.node)(last));
-            let Some(meeting) = self.meeting.get(&here).filter(|m| m.len() == 2 && start != here) else { return };
+            let Some(meeting) = self.meeting.get(&here).filter(|m| m.len() == 2 && start != here) else {
+                return;
+            };
             let Some(&next) = meeting.iter().find(|&&i| !self.used[i]) else { return };
             self.used[next] = true;
             let piece = &self.pieces[next];

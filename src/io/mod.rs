@@ -4,6 +4,7 @@ pub mod compas;
 mod inputs;
 mod join;
 pub mod obj;
+pub mod table;
 pub mod text;
 mod unit;
 

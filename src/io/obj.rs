@@ -38,7 +38,9 @@ impl ObjFile {
     /// What to tell where something was looked for in vain: what the file has instead.
     pub fn hint(&self) -> String {
         match &self.unknown {
-            _ if self.vertices.is_empty() && self.unknown.is_none() => "; the file has no vertices".to_owned(),
+            _ if self.vertices.is_empty() && self.unknown.is_none() => {
+                "; the file has no vertices".to_owned()
+            }
             Some((line, word)) => format!("; line {line} begins with `{word}`, which is no keyword of OBJ"),
             None => String::new(),
         }
@@ -51,8 +53,7 @@ impl ObjFile {
 /// The first line that is wrong.
 pub fn read(Input { file, bytes }: Input<'_>, unit: LengthUnit) -> Result<ObjFile, ReadError> {
     let parsed = decode_lossy(bytes).and_then(|text| parse(&text));
-    let mut obj =
-        parsed.map_err(|(line, reason)| ReadError::Line { file: file.to_owned(), line, reason })?;
+    let mut obj = parsed.map_err(|(line, reason)| ReadError::Line { file: file.to_owned(), line, reason })?;
     obj.vertices.iter_mut().for_each(|position| *position = position.map(|c| unit.metres(c)));
     obj.polyline_gaps.iter_mut().for_each(|gap| *gap = unit.metres(*gap));
     Ok(obj)
@@ -294,7 +295,8 @@ mod tests {
 
     #[test]
     fn pieces_that_share_no_vertex_are_joined_by_their_places() {
-        let square = "v 0 0 0\nv 10 0 0\nv 10 0 0\nv 10 10 0\nv 10.0004 10 0\nv 0 10 0\nl 1 2\nl 3 4\nl 5 6\nl 6 1\n";
+        let square =
+            "v 0 0 0\nv 10 0 0\nv 10 0 0\nv 10 10 0\nv 10.0004 10 0\nv 0 10 0\nl 1 2\nl 3 4\nl 5 6\nl 6 1\n";
         let obj = parse(square).unwrap();
         assert_eq!(obj.polylines, [vec![0, 1, 3, 5, 0]]);
         assert!((obj.polyline_gaps[0] - 0.0004).abs() < 1e-12);

@@ -1,6 +1,8 @@
 //! Bytes of a file as text: what editors, spreadsheets and shells put around it.
 
 use std::borrow::Cow;
+use std::path::Path;
+use std::{fs, io};
 
 /// The text of a file in UTF-8, or in UTF-16 with a byte order mark, as spreadsheets ("Unicode text") and PowerShell write it; without
 /// that mark.
@@ -18,6 +20,23 @@ pub fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, (usize, String)> {
     })
 }
 
+/// The text of a file on the disk ([`decode`]).
+///
+/// # Errors
+/// It cannot be read, or is in another encoding; then the line is told.
+pub fn read(file: &Path) -> io::Result<String> {
+    owned(&fs::read(file)?)
+}
+
+/// As [`decode`], with the error as that of reading.
+///
+/// # Errors
+/// The bytes are in another encoding.
+pub fn owned(bytes: &[u8]) -> io::Result<String> {
+    let wrong = |(line, reason)| io::Error::new(io::ErrorKind::InvalidData, format!("line {line}: {reason}"));
+    decode(bytes).map(Cow::into_owned).map_err(wrong)
+}
+
 /// As [`decode`], but bytes that are not UTF-8 become `�`: comments and names may be in any encoding.
 ///
 /// # Errors
@@ -28,7 +47,10 @@ pub fn decode_lossy(bytes: &[u8]) -> Result<Cow<'_, str>, (usize, String)> {
     }
     if let Some(at) = bytes.iter().position(|&byte| byte == 0) {
         let line = 1 + bytes[..at].iter().filter(|&&byte| byte == b'\n').count();
-        return Err((line, "a zero byte: this is no text file, or one in UTF-16; save it as UTF-8".to_owned()));
+        return Err((
+            line,
+            "a zero byte: this is no text file, or one in UTF-16; save it as UTF-8".to_owned(),
+        ));
     }
     Ok(String::from_utf8_lossy(without_mark(bytes)))
 }

@@ -181,7 +181,8 @@ pub fn read(input: Input<'_>, unit: LengthUnit) -> Result<BaseMesh, ReadError> {
         })?;
         return Ok(base);
     }
-    let text = decode(bytes).map_err(|(line, reason)| ReadError::Line { file: file.to_owned(), line, reason })?;
+    let text =
+        decode(bytes).map_err(|(line, reason)| ReadError::Line { file: file.to_owned(), line, reason })?;
     let value: serde_json::Value = json::read(&text).map_err(|e| content(e.to_string()))?;
     let (mut base, counted) = match value.get("vertices") {
         None => (compas::from_value(&value).map_err(content)?, " (counted from 0 in the order of the keys)"),
@@ -254,7 +255,8 @@ fn faces_y(base: &BaseMesh) -> bool {
         let area = |f: &Vec<u32>| {
             let points: Vec<_> = f.iter().map(p).collect();
             let n = points.len();
-            let cross = |k: usize| points[k][0] * points[(k + 1) % n][1] - points[k][1] * points[(k + 1) % n][0];
+            let cross =
+                |k: usize| points[k][0] * points[(k + 1) % n][1] - points[k][1] * points[(k + 1) % n][0];
             (0..n).map(cross).sum::<f64>().abs()
         };
         base.faces.iter().map(area).sum::<f64>()

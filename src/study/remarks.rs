@@ -20,7 +20,9 @@ impl Study {
     /// Boundaries that were not quite closed.
     fn closed_gaps(&self) -> impl Iterator<Item = String> {
         self.domain.closed_gaps.iter().map(|(number, gap)| {
-            format!("domain.loop[{number}]: the polyline of the file has a gap of {gap:.3e} m, which was closed")
+            format!(
+                "domain.loop[{number}]: the polyline of the file has a gap of {gap:.3e} m, which was closed"
+            )
         })
     }
 

@@ -37,9 +37,10 @@ impl MeshSurface {
     /// A mesh from its triangles and quads; faces without area do not count. `None` if none is left.
     pub fn new(vertices: &[[f64; 3]], faces: &[Vec<u32>]) -> Option<Self> {
         let triangles: Vec<Triangle> = faces.iter().flat_map(|face| cut(vertices, face)).collect();
-        let [_, y, z] = triangles.iter().map(vector_area).fold([0.0; 3], |sum: [f64; 3], area| {
-            std::array::from_fn(|k| sum[k] + area[k].abs())
-        });
+        let [_, y, z] = triangles
+            .iter()
+            .map(vector_area)
+            .fold([0.0; 3], |sum: [f64; 3], area| std::array::from_fn(|k| sum[k] + area[k].abs()));
         let hint = if y > z {
             "; most of the mesh faces y, as in files with y up: files are read with z up, so export it with z up"
         } else {

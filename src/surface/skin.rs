@@ -2,7 +2,7 @@
 //! carry no pattern, and so the winding of faces, which says what is inside and outside, does not count.
 
 use super::tree::{Closest, Over, TriangleTree};
-use super::triangle::{Triangle, angle_at, dot, is_upright, overlap, square, sub, vector_area};
+use super::triangle::{Triangle, angle_at, dot, is_steep, is_vertical, overlap, square, sub, vector_area};
 
 /// Nearer than this share of the size, a point is on an edge or in a corner.
 const EDGE: f64 = 1e-9;
@@ -47,7 +47,7 @@ pub struct Skin {
 }
 
 impl Skin {
-    /// The skin of these triangles; those without area do not count, and walls only where there is nothing else. `None` if none is
+    /// The skin of these triangles; those without area do not count, and vertical ones only where there is nothing else. `None` if none is
     /// left.
     pub fn new(triangles: impl Iterator<Item = Triangle>) -> Option<Self> {
         let has_area = |t: &Triangle| square(vector_area(t)) > 0.0;
@@ -59,8 +59,8 @@ impl Skin {
         triangles.dedup();
         let size = size(plan_bounds(&triangles));
         let (edge, rounding) = (EDGE * size, ROUNDING * size);
-        if !triangles.iter().all(|t| is_upright(t, rounding)) {
-            triangles.retain(|t| !is_upright(t, rounding));
+        if !triangles.iter().all(is_vertical) {
+            triangles.retain(|t| !is_vertical(t));
         }
         let normals = triangles.iter().map(upward).collect();
         let tree = TriangleTree::new(&triangles)?;
@@ -81,7 +81,8 @@ impl Skin {
         let tree = |numbers: &[u32]| {
             TriangleTree::of(numbers.iter().map(|&i| (self.triangles[i as usize], i)).collect())
         };
-        self.layers = Some(Layers { clear: (!clear.is_empty()).then(|| tree(&clear)), covered: tree(&covered) });
+        self.layers =
+            Some(Layers { clear: (!clear.is_empty()).then(|| tree(&clear)), covered: tree(&covered) });
         for i in covered.into_iter().map(|i| i as usize) {
             let [a, b, c] = self.triangles[i];
             let middle = std::array::from_fn(|k| (a[k] + b[k] + c[k]) / 3.0);
@@ -89,9 +90,13 @@ impl Skin {
         }
     }
 
-    /// Whether some other triangle may lie above some part of this one.
+    /// Whether something may lie above some part of this triangle.
     fn is_covered(&self, i: u32) -> bool {
         let t = &self.triangles[i as usize];
+        if is_steep(t, self.rounding) {
+            // Of a wall only the upper edge is seen, of the rim of a dome all: each point tells.
+            return true;
+        }
         let bounds = plan_bounds(std::slice::from_ref(t));
         let lowest = t.iter().fold(f64::INFINITY, |z, p| z.min(p[2])) + self.rounding;
         self.tree.any_near(bounds, lowest, 0.0, |other, j| {
@@ -186,9 +191,7 @@ impl Skin {
 fn sorted(mut t: Triangle) -> Triangle {
     // −0 is 0.
     t.iter_mut().flatten().for_each(|x| *x += 0.0);
-    t.sort_by(|p, q| {
-        p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])).then(p[2].total_cmp(&q[2]))
-    });
+    t.sort_by(|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])).then(p[2].total_cmp(&q[2])));
     t
 }
 

@@ -251,8 +251,11 @@ mod tests {
             assert_eq!(found.distance2, all);
             let (on, _) = closest_on_triangle(found.point, &triangles[found.triangle as usize]);
             assert!(square(sub(on, found.point)) < 1e-20);
-            let z =
-                triangles.iter().filter_map(|t| over_triangle([p[0], p[1]], t, 0.0)).map(|q| q[2]).reduce(f64::max);
+            let z = triangles
+                .iter()
+                .filter_map(|t| over_triangle([p[0], p[1]], t, 0.0))
+                .map(|q| q[2])
+                .reduce(f64::max);
             assert_eq!(tree.highest(p[0], p[1], 0.0).map(|over| over.point[2]), z);
         }
     }

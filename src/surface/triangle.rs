@@ -75,9 +75,7 @@ pub(super) fn over_triangle([x, y]: [f64; 2], [a, b, c]: &Triangle, tolerance: f
     // Clamped onto the triangle, so that a sliver does not shoot up beyond its edge.
     let weights = shares.map(|s| (s / area).clamp(0.0, 1.0));
     let sum: f64 = weights.iter().sum();
-    inside.then(|| {
-        std::array::from_fn(|k| (weights[0] * a[k] + weights[1] * b[k] + weights[2] * c[k]) / sum)
-    })
+    inside.then(|| std::array::from_fn(|k| (weights[0] * a[k] + weights[1] * b[k] + weights[2] * c[k]) / sum))
 }
 
 /// Half the cross product of two sides.
@@ -86,10 +84,17 @@ pub(super) fn vector_area([a, b, c]: &Triangle) -> [f64; 3] {
     [0.5 * (u[1] * v[2] - u[2] * v[1]), 0.5 * (u[2] * v[0] - u[0] * v[2]), 0.5 * (u[0] * v[1] - u[1] * v[0])]
 }
 
-/// Whether a triangle stands upright: steeper than 10 : 1, and in plan no wider than `tolerance`.
-pub(super) fn is_upright(t: &Triangle, tolerance: f64) -> bool {
+/// Whether a triangle is vertical, but for rounding.
+pub(super) fn is_vertical(t: &Triangle) -> bool {
     let area = vector_area(t);
-    let longest = (0..3).map(|k| (t[k][0] - t[(k + 1) % 3][0]).hypot(t[k][1] - t[(k + 1) % 3][1])).fold(0.0, f64::max);
+    area[2] * area[2] <= 1e-12 * square(area)
+}
+
+/// Whether a triangle is steeper than 10 : 1 and in plan no wider than `tolerance`, as the walls of files in millimetres are.
+pub(super) fn is_steep(t: &Triangle, tolerance: f64) -> bool {
+    let area = vector_area(t);
+    let side = |k: usize| (t[k][0] - t[(k + 1) % 3][0]).hypot(t[k][1] - t[(k + 1) % 3][1]);
+    let longest = side(0).max(side(1)).max(side(2));
     area[2] * area[2] <= 0.01 * square(area) && 2.0 * area[2].abs() <= tolerance * longest
 }
 
