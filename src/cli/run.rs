@@ -17,7 +17,8 @@ use quadrille::output::sitting::Sitting;
 use quadrille::output::table::Dialect;
 use quadrille::random;
 use quadrille::search::{
-    self, Ended, Evaluation, GenerationRow, Observer, Outcome, Progress, Settings, StopFlag, Store, ThreadServer,
+    self, Ended, Evaluation, GenerationRow, Observer, Outcome, Progress, Settings, StopFlag, Store,
+    ThreadServer,
 };
 use quadrille::study::Study;
 use std::io::ErrorKind;
@@ -29,13 +30,15 @@ use std::time::Instant;
 ///
 /// The search is NSGA-II on strings of the grammar. Results go to `results/<name of the config>/` below the current
 /// folder, or to --out. The same config and seed give the same results, with any number of threads. Ctrl-C (or
-/// SIGTERM) ends the run after the evaluations in flight; `--resume` goes on from there with the same result. A
-/// second Ctrl-C aborts at once.
+/// SIGTERM, SIGHUP) ends the run after the evaluations in flight; `--resume` goes on from there with the same result. A
+/// second one aborts at once, if it comes more than a second later.
 ///
 /// The folder then holds pareto.csv (the front), history.csv (every evaluated design, and why it failed),
 /// generations.csv (convergence), operators.csv, report.html (open it in a browser), designs/ (each design of the front
 /// as OBJ, COMPAS JSON, SVG, VTU, and CSV of nodes and members), design_explorer/data.csv and manifest.json. A folder that
-/// holds a run, or something else under these names, is not overwritten without --force.
+/// holds a run, or something else under these names, is not overwritten without --force. What the run did not write is never
+/// removed, and a file of its own that you changed is kept as NAME.bak. The config and the files that it names are read once, at
+/// the start.
 #[derive(clap::Args)]
 pub struct Args {
     #[command(flatten)]
@@ -79,9 +82,11 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     }
     fix_seed(&mut project.config, &folder, args.resume, console)?;
     let (mut store, sitting) = args.begin(&mut folder, &project)?;
+    folder.take_warnings().iter().for_each(|warning| console.warn(warning));
     let stop = StopFlag::new();
     let clock = Instant::now();
-    let mut watch = Watch { display: Display::new(&project.config, study.baseline(), *console), sitting, folder };
+    let mut watch =
+        Watch { display: Display::new(&project.config, study.baseline(), *console), sitting, folder };
     let outcome = evolve(&study, &project.config, &mut store, &stop, &mut watch, console)?;
     let Watch { mut sitting, mut folder, .. } = watch;
     let dialect = args.dialect(&folder);
@@ -102,9 +107,7 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     };
     let status = if is_whole { Status::Finished } else { Status::Interrupted };
     sitting.end(&mut folder, status).map_err(failed)?;
-    for warning in folder.take_warnings() {
-        console.warn(&warning);
-    }
+    folder.take_warnings().iter().for_each(|warning| console.warn(warning));
     if !is_whole {
         console.always(&format!("interrupted; go on with: {}", args.resume_command(&folder)));
         return Ok(ExitCode::from(exit::interrupted(stop.raised().unwrap_or_default())));

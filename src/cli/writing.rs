@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 /// Between two lines.
 const PAUSE: Duration = Duration::from_secs(2);
 
-/// Shows on stderr how many designs are written.
+/// Shows on stderr how many designs are written; with `-v` each.
 pub struct WritingDisplay<'a> {
     console: Console,
     stop: &'a StopFlag,
@@ -40,6 +40,8 @@ impl Writing for WritingDisplay<'_> {
         } else if self.console.progress() == How::Plain && self.told.elapsed() >= PAUSE {
             self.told = Instant::now();
             self.console.note(&told);
+        } else {
+            self.console.detail(&told);
         }
     }
 

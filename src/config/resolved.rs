@@ -1,11 +1,10 @@
 //! A config with its defaults: written back, hashed, compared.
 
 use super::{Config, KeyPath, names};
-use crate::domain::params::LoopParams;
-use crate::geometry::params::{FREE_SWEEPS, InitialMesh, RelaxKind};
+use crate::geometry::params::{FREE_SWEEPS, RelaxKind};
+use crate::io::{Inputs, sha256};
 use crate::structure::params::{HeightParams, SectionParams, StructureParams};
 use crate::surface::params::SurfaceParams;
-use crate::io::{Inputs, sha256};
 use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
@@ -61,19 +60,7 @@ pub fn hash(config: &Config) -> String {
 
 /// The files that a config names, relative to its folder.
 pub fn input_files(config: &Config) -> Vec<PathBuf> {
-    let outlines = config.domain.loops.iter().filter_map(|boundary_loop| match boundary_loop {
-        LoopParams::Obj { file, .. } => Some(file),
-        _ => None,
-    });
-    let surface = match &config.surface {
-        SurfaceParams::Mesh { file, .. } => Some(file),
-        _ => None,
-    };
-    let initial = match &config.topology.initial {
-        InitialMesh::File { file, .. } => Some(file),
-        _ => None,
-    };
-    outlines.chain(surface).chain(initial).cloned().collect()
+    [config.domain.files(), config.surface.files(), config.topology.files()].concat()
 }
 
 /// Reads the files that a config names; `folder` is where relative paths start.

@@ -69,7 +69,8 @@ impl Inputs {
     /// # Errors
     /// [`ReadError::Open`]: it could not be read.
     pub fn get(&self, name: &Path) -> Result<Input<'_>, ReadError> {
-        let refused = |file: &Path, reason: &str| ReadError::Open { file: file.into(), reason: reason.into() };
+        let refused =
+            |file: &Path, reason: &str| ReadError::Open { file: file.into(), reason: reason.into() };
         let given = self.0.get(name).ok_or_else(|| refused(name, "it was not read with the config"))?;
         match &given.content {
             Ok(content) => Ok(Input { file: &given.place, bytes: &content.bytes }),

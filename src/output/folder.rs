@@ -4,7 +4,7 @@ use super::atomic;
 use super::ledger::{Files, Ledger};
 use super::lock::{Lock, Try};
 use super::manifest::{Manifest, Status};
-use crate::io::hex;
+use crate::io::{hex, sha256};
 use sha2::{Digest, Sha256};
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
@@ -174,7 +174,7 @@ impl Folder {
 
     /// Removes what a killed run was just writing under a temporary name.
     fn clear_temporary(&self) -> Result<(), FolderError> {
-        for folder in [self.path.clone(), self.join(DESIGNS), self.join(DESIGN_EXPLORER)] {
+        for folder in FOLDERS.map(|name| self.join(name)).into_iter().chain([self.path.clone()]) {
             for path in fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()) {
                 if atomic::is_temporary(&path) {
                     fs::remove_file(&path).map_err(|source| FolderError::Io { path, source })?;
@@ -272,14 +272,21 @@ impl Folder {
     ) -> Result<(), FolderError> {
         let path = self.join(name);
         let mut sum = Sha256::new();
-        let made = path.parent().map_or(Ok(()), fs::create_dir_all);
-        let written = made.and_then(|()| {
-            atomic::write_with(&path, |out| fill(&mut Summed { out, sum: &mut sum }))
-        });
+        // Only the folder in `name`: a folder that was moved away under a run is not made anew.
+        let made = name.split_once('/').map_or(Ok(()), |(folder, _)| make_folder(&self.join(folder)));
+        let written =
+            made.and_then(|()| atomic::write_with(&path, |out| fill(&mut Summed { out, sum: &mut sum })));
         written.map_err(|source| FolderError::Io { path, source })?;
         let changes = CHANGING.contains(&name);
         self.ledger.written(name, (!changes).then(|| hex(&sum.finalize())));
         Ok(())
+    }
+}
+
+fn make_folder(path: &Path) -> io::Result<()> {
+    match fs::create_dir(path) {
+        Err(error) if error.kind() != io::ErrorKind::AlreadyExists => Err(error),
+        _ => Ok(()),
     }
 }
 
@@ -299,6 +306,20 @@ impl Write for Summed<'_> {
     fn flush(&mut self) -> io::Result<()> {
         self.out.flush()
     }
+}
+
+/// Lists a file that another command wrote into the folder of a run, so that an overwriting run removes it with the rest.
+/// Not while a run is on: its manifest is its own.
+///
+/// # Errors
+/// [`FolderError::Io`].
+pub fn list(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), FolderError> {
+    let Ok(Try::Held(_lock)) = Lock::make(folder) else { return Ok(()) };
+    let listing = Manifest::read(folder).filter(|m| m.status != Status::Running && !m.files.is_empty());
+    let Some(mut manifest) = listing else { return Ok(()) };
+    manifest.files.insert(name.to_owned(), Some(sha256(bytes)));
+    let path = folder.join(MANIFEST);
+    atomic::write(&path, &manifest.to_json()).map_err(|source| FolderError::Io { path, source })
 }
 
 /// Refuses a folder that `opening` does not allow for.
@@ -345,7 +366,8 @@ fn listed(folder: &Path) -> Files {
 
 /// Whether there is a journal or a checkpoint, and of this program's: other programs have files of these names too.
 fn has_state(folder: &Path) -> bool {
-    let names = [(JOURNAL, "{\"journal\":"), (CHECKPOINT, "\"checksum\":"), (CHECKPOINT_PREVIOUS, "\"checksum\":")];
+    let names =
+        [(JOURNAL, "{\"journal\":"), (CHECKPOINT, "\"checksum\":"), (CHECKPOINT_PREVIOUS, "\"checksum\":")];
     names.iter().any(|(name, mark)| {
         let mut start = Vec::new();
         let read = File::open(folder.join(name)).and_then(|file| file.take(128).read_to_end(&mut start));
@@ -416,7 +438,9 @@ mod tests {
 
     #[test]
     fn files_of_others_are_refused_and_forced_kept() {
-        for name in ["designs/mine.txt", "history.csv", "manifest.json", "checkpoint.json", "pareto.excel-eu.csv"] {
+        for name in
+            ["designs/mine.txt", "history.csv", "manifest.json", "checkpoint.json", "pareto.excel-eu.csv"]
+        {
             let temporary = tempfile::tempdir().unwrap();
             put(temporary.path(), name, b"{\"mine\": 1}");
             let before = everything(temporary.path());

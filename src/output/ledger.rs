@@ -63,6 +63,7 @@ impl Ledger {
         let path = self.folder.join(name);
         let is_ours = match self.before.get(name) {
             _ if self.now.contains_key(name) => true,
+            _ if path.is_dir() => false,
             Some(None) => true,
             Some(Some(sum)) => self.is_as_written(&path, sum)?,
             None => false,
@@ -71,6 +72,7 @@ impl Ledger {
             return Ok(());
         }
         if let Some(bytes) = bytes
+            && path.is_file()
             && self.is_as_written(&path, &crate::io::sha256(bytes))?
         {
             return Ok(());
@@ -105,7 +107,12 @@ impl Ledger {
             .collect();
         for (name, sum) in old {
             let path = self.folder.join(&name);
-            if path.exists() && !sum.as_ref().map_or(Ok(true), |sum| self.is_as_written(&path, sum))? {
+            let is_ours = match &sum {
+                _ if path.is_dir() => false,
+                Some(sum) => self.is_as_written(&path, sum)?,
+                None => true,
+            };
+            if !is_ours {
                 self.told.push(format!("{}: was changed after the run wrote it; it stays", path.display()));
             } else {
                 remove_file(&path)?;

@@ -2,12 +2,12 @@
 
 use super::designs::{Columns, FIRST, LAST};
 use super::folder::{CHECKPOINT, EVALUATION, GENERATIONS, HISTORY, JOURNAL, MANIFEST, PARETO};
-use super::manifest::Manifest;
+use super::manifest::{Counts, Manifest, Status};
 use crate::config::Config;
 use crate::evolve::Violation;
 use crate::io::table;
 use crate::mesh::canonical::Code;
-use crate::search::{Breeding, EvaluatedRow, GenerationRow};
+use crate::search::{Breeding, EvaluatedRow, GenerationRow, Snapshot};
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{BufRead, BufReader};
@@ -19,6 +19,18 @@ pub enum LoadError {
     /// The folder is not that of a run.
     #[error("{}: not the results folder of a run: it has no {MANIFEST}; {}", folder.display(), cure(folder))]
     NotARun {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// The run has not written its tables yet.
+    #[error("{}: the run there is not finished, and its tables are not written: end it with `quadrille run CONFIG --resume`", folder.display())]
+    Unfinished {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// The run has nothing to show yet.
+    #[error("{}: the run there has not finished a generation yet; look again later", folder.display())]
+    Nothing {
         /// The folder.
         folder: PathBuf,
     },
@@ -47,21 +59,48 @@ pub struct Loaded {
     pub manifest: Manifest,
     /// The config as resolved.
     pub config: Config,
-    /// The folder to which paths in it are relative.
-    pub config_folder: PathBuf,
     /// Every evaluated design, as in `history.csv`. Codes have their first 64 bits only.
     pub evaluated: Vec<EvaluatedRow>,
     /// The front in the order of `pareto.csv`, as places in `evaluated`.
     pub front: Vec<usize>,
     /// Every generation, as in `generations.csv`.
     pub generations: Vec<GenerationRow>,
+    /// Whether the run goes on or was interrupted: then all this is what it had found after its last finished generation.
+    pub is_unfinished: bool,
 }
 
-/// Reads a results folder.
+/// Reads a results folder: a finished run from its tables, any other as it stood after its last finished generation.
+///
+/// # Errors
+/// [`LoadError`] with file and line.
+pub fn look(folder: &Path) -> Result<Loaded, LoadError> {
+    let (mut manifest, config) = head(folder)?;
+    if manifest.status == Status::Finished {
+        return tables(folder, manifest, config);
+    }
+    let read = Snapshot::read(folder)
+        .map_err(|error| LoadError::Format { path: folder.join(JOURNAL), message: error.to_string() })?;
+    let Some(Snapshot { evaluated, generations, front, breeding }) = read else {
+        return Err(LoadError::Nothing { folder: folder.to_path_buf() });
+    };
+    manifest.counts = Counts::of(&generations, &breeding, evaluated.len(), front.len());
+    Ok(Loaded { manifest, config, evaluated, front, generations, is_unfinished: true })
+}
+
+/// Reads the tables of a results folder.
 ///
 /// # Errors
 /// [`LoadError`] with file and line.
 pub fn load(folder: &Path) -> Result<Loaded, LoadError> {
+    let (manifest, config) = head(folder)?;
+    match manifest.status {
+        Status::Running => Err(LoadError::Unfinished { folder: folder.to_path_buf() }),
+        Status::Interrupted | Status::Finished => tables(folder, manifest, config),
+    }
+}
+
+/// What was run.
+fn head(folder: &Path) -> Result<(Manifest, Config), LoadError> {
     let path = folder.join(MANIFEST);
     if !path.exists() {
         return Err(LoadError::NotARun { folder: folder.to_path_buf() });
@@ -71,6 +110,10 @@ pub fn load(folder: &Path) -> Result<Loaded, LoadError> {
         serde_json::from_slice(&read(&path)?).map_err(|error| wrong(error.to_string()))?;
     let config: Config =
         toml::from_str(&manifest.config).map_err(|error| wrong(format!("config: {}", error.message())))?;
+    Ok((manifest, config))
+}
+
+fn tables(folder: &Path, manifest: Manifest, config: Config) -> Result<Loaded, LoadError> {
     let columns = Columns::of(&config.objectives.minimise);
     let evaluated = Sheet::each(folder, HISTORY, |record| row(record, &columns))?;
     let places: BTreeMap<Code, usize> = evaluated.iter().enumerate().map(|(i, row)| (row.code, i)).collect();
@@ -79,8 +122,8 @@ pub fn load(folder: &Path) -> Result<Loaded, LoadError> {
         places.get(&code).copied().ok_or_else(|| record.wrong(format!("{code} is not in {HISTORY}")))
     })?;
     let generations = Sheet::each(folder, GENERATIONS, |record| generation(record, &columns))?;
-    let config_folder = PathBuf::from(&manifest.config_folder);
-    Ok(Loaded { manifest, config, config_folder, evaluated, front, generations })
+    let is_unfinished = manifest.status != Status::Finished;
+    Ok(Loaded { manifest, config, evaluated, front, generations, is_unfinished })
 }
 
 /// What a folder without a manifest is, and what to do.

@@ -1,6 +1,7 @@
 //! `manifest.json`: what was run, with what, where and when. The one file that holds times.
 
 use super::ledger::Files;
+use crate::search::{Breeding, GenerationRow};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -86,6 +87,23 @@ pub struct Counts {
     pub duplicates_refused: u64,
     /// Children refused because a near design was known.
     pub neighbours_refused: u64,
+}
+
+impl Counts {
+    /// Counts after these generations.
+    pub fn of(generations: &[GenerationRow], breeding: &Breeding, evaluated: usize, front: usize) -> Self {
+        let last = generations.last();
+        Self {
+            generations: last.map_or(0, |row| row.generation),
+            evaluations: evaluated as u64,
+            structural_evaluations: last.map_or(0, |row| row.structural),
+            feasible: last.map_or(0, |row| row.feasible),
+            front_size: front as u64,
+            bred: breeding.bred,
+            duplicates_refused: breeding.duplicates,
+            neighbours_refused: breeding.neighbours,
+        }
+    }
 }
 
 /// The machine.

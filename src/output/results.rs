@@ -225,8 +225,7 @@ fn write_design(folder: &mut Folder, files: DesignFiles, is_explored: bool) -> R
 }
 
 /// Endings of the files of a design.
-const ENDINGS: [&str; 7] =
-    [".obj", ".json", ".svg", ".vtu", "_members.vtu", "_nodes.csv", "_members.csv"];
+const ENDINGS: [&str; 7] = [".obj", ".json", ".svg", ".vtu", "_members.vtu", "_nodes.csv", "_members.csv"];
 
 fn design_name(id: &str, ending: &str) -> String {
     format!("{}/{id}{ending}", folder::DESIGNS)

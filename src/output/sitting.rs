@@ -97,7 +97,8 @@ impl Sitting {
         names: impl IntoIterator<Item = String>,
     ) -> Result<(), FolderError> {
         self.searched = Some(self.clock.elapsed().as_secs_f64());
-        self.manifest.counts = counts(outcome);
+        let Outcome { generations, breeding, evaluated, front, .. } = outcome;
+        self.manifest.counts = Counts::of(generations, breeding, evaluated.len(), front.len());
         self.manifest.ended_by = words(outcome.ended);
         match self.earlier.take() {
             // What is there tells of the sittings in which something was done.
@@ -129,21 +130,6 @@ impl Sitting {
         }
         manifest.files = folder.files();
         folder.write(MANIFEST, &manifest.to_json())
-    }
-}
-
-fn counts(outcome: &Outcome) -> Counts {
-    let Outcome { generations, breeding, .. } = outcome;
-    let last = generations.last();
-    Counts {
-        generations: last.map_or(0, |row| row.generation),
-        evaluations: outcome.evaluated.len() as u64,
-        structural_evaluations: last.map_or(0, |row| row.structural),
-        feasible: last.map_or(0, |row| row.feasible),
-        front_size: outcome.front.len() as u64,
-        bred: breeding.bred,
-        duplicates_refused: breeding.duplicates,
-        neighbours_refused: breeding.neighbours,
     }
 }
 

@@ -124,8 +124,12 @@ pub(super) fn angle_at(t: &Triangle, p: [f64; 3], reach: f64) -> Option<f64> {
         let cosine = dot(u, v) / (square(u) * square(v)).sqrt();
         return Some(libm::acos(cosine.clamp(-1.0, 1.0)));
     }
-    // An edge is the triangle without its third corner.
-    if (0..3).any(|k| near(closest_on_triangle(p, &[t[k], t[(k + 1) % 3], t[(k + 1) % 3]]).0)) {
+    let on_edge = |k: usize| {
+        let (a, along) = (t[k], sub(t[(k + 1) % 3], t[k]));
+        let share = (dot(sub(p, a), along) / square(along)).clamp(0.0, 1.0);
+        near(std::array::from_fn(|i| a[i] + share * along[i]))
+    };
+    if (0..3).any(on_edge) {
         return Some(PI);
     }
     near(closest_on_triangle(p, t).0).then_some(TAU)

@@ -16,7 +16,7 @@ pub use data::{
     Design, Generation, Mark, Mesh, Metric, Obstacle, ReportData, Run, Sample, Singular, Singularities,
     Spread,
 };
-pub use read::read;
+pub use read::{of, read};
 
 /// Why a report cannot be made. All of these are mistakes of the caller: a run's own data satisfies them.
 #[derive(Debug, thiserror::Error)]

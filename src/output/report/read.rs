@@ -6,7 +6,7 @@ use super::{measure, shape};
 use crate::objectives::{self, METRICS};
 use crate::output::designs;
 use crate::output::folder::DESIGNS;
-use crate::output::load::{LoadError, Loaded, load};
+use crate::output::load::{LoadError, Loaded, look};
 use crate::output::manifest::Manifest;
 use crate::output::obstacles::{Obstacles, nearest_misses};
 use crate::search::{EvaluatedRow, GenerationRow};
@@ -17,7 +17,7 @@ const MESH_BUDGET: usize = 13_000_000;
 /// Bytes that a packed mesh takes per panel, generously (measured: 26).
 const BYTES_PER_PANEL: usize = 28;
 
-/// Reads a results folder: tables, manifest and, for pictures, `designs/ID.json` and `ID_members.csv`.
+/// Reads a results folder, also of a run that is not finished ([`look`]): tables, manifest and, for pictures, `designs/ID.json` and `ID_members.csv`.
 ///
 /// Of a front too large for one page some designs come without a mesh ([`worth_a_mesh`]); the baseline keeps its own.
 /// A design whose mesh file is missing has no picture, and one whose member file is missing no utilisation.
@@ -25,7 +25,15 @@ const BYTES_PER_PANEL: usize = 28;
 /// # Errors
 /// [`LoadError`]: a file that is missing or cannot be read, by name and line.
 pub fn read(folder: &Path) -> Result<ReportData, LoadError> {
-    let Loaded { manifest, config, evaluated, front, generations, .. } = load(folder)?;
+    of(folder, look(folder)?)
+}
+
+/// As [`read`], from a folder that was read already.
+///
+/// # Errors
+/// As [`read`].
+pub fn of(folder: &Path, loaded: Loaded) -> Result<ReportData, LoadError> {
+    let Loaded { manifest, config, evaluated, front, generations, is_unfinished } = loaded;
     let shown = Shown::of(&config.objectives.minimise, &evaluated);
     let shapes = folder.join(DESIGNS);
     let mut rows: Vec<Design> =
@@ -38,7 +46,7 @@ pub fn read(folder: &Path) -> Result<ReportData, LoadError> {
         misses.iter().map(|&row| shown.design(&evaluated[row], &shapes)).collect::<Result<_, _>>()?;
     keep_within_budget(&mut rows, shown.objectives);
     Ok(ReportData {
-        run: run(&manifest),
+        run: run(&manifest, is_unfinished),
         metrics: shown.places.iter().map(|&place| metric(METRICS[place])).collect(),
         objectives: (0..shown.objectives).collect(),
         design_files: rows
@@ -60,10 +68,14 @@ pub fn read(folder: &Path) -> Result<ReportData, LoadError> {
     })
 }
 
-fn run(manifest: &Manifest) -> Run {
+fn run(manifest: &Manifest, is_unfinished: bool) -> Run {
     let counts = &manifest.counts;
+    let name = manifest.name.clone();
     Run {
-        name: manifest.name.clone(),
+        name: match is_unfinished {
+            true => format!("{name} (unfinished, after generation {})", counts.generations),
+            false => name,
+        },
         program_version: manifest.program_version.clone(),
         seed: manifest.seed.to_string(),
         evaluations: counts.evaluations,

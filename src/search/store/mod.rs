@@ -21,6 +21,7 @@ mod compare;
 mod entry;
 mod error;
 mod journal;
+mod snapshot;
 
 use std::collections::HashMap;
 use std::fs;
@@ -42,6 +43,7 @@ use crate::output::folder::{CHECKPOINT, CHECKPOINT_PREVIOUS, JOURNAL};
 pub use compare::differing_keys;
 pub(crate) use entry::text;
 pub use error::StoreError;
+pub use snapshot::Snapshot;
 
 /// The files of one run.
 #[derive(Debug)]
@@ -92,19 +94,9 @@ impl Store {
     /// If files cannot be read or written, or `config` differs from the recorded one in anything but threads and the
     /// stopping limits.
     pub fn resume(folder: &Path, config: Value) -> Result<Self, StoreError> {
-        let mut found = Found::default();
-        let mut recorded = None;
-        for name in [CHECKPOINT, CHECKPOINT_PREVIOUS] {
-            found.checkpoint_files += usize::from(folder.join(name).exists());
-            match checkpoint::read(&folder.join(name)) {
-                Ok(Some(checkpoint)) => {
-                    recorded.get_or_insert(checkpoint.config.clone());
-                    found.checkpoints.push(checkpoint);
-                }
-                Ok(None) => {}
-                Err(damage) => found.notices.push(format!("{name} is not used: {damage}")),
-            }
-        }
+        let Checkpoints { used, files, notices } = checkpoints(folder);
+        let mut found = Found { checkpoints: used, notices, checkpoint_files: files, ..Found::default() };
+        let recorded = found.checkpoints.first().map(|checkpoint| checkpoint.config.clone());
         // Compared before the journal is opened for writing: a refused resume leaves everything as it was.
         let left = journal::read(&folder.join(JOURNAL))?;
         if let Some(recorded) = recorded.as_ref().or(left.config.as_ref()) {
@@ -126,10 +118,8 @@ impl Store {
     /// # Errors
     /// If a file exists and cannot be read.
     pub fn recorded_config(folder: &Path) -> Result<Option<Value>, StoreError> {
-        for name in [CHECKPOINT, CHECKPOINT_PREVIOUS] {
-            if let Ok(Some(checkpoint)) = checkpoint::read(&folder.join(name)) {
-                return Ok(Some(checkpoint.config));
-            }
+        if let Some(checkpoint) = checkpoints(folder).used.into_iter().next() {
+            return Ok(Some(checkpoint.config));
         }
         Ok(journal::read(&folder.join(JOURNAL))?.config)
     }
@@ -197,6 +187,27 @@ impl Store {
         }
         atomic::write(&newest, &bytes).map_err(|error| StoreError::io(&newest, error))
     }
+}
+
+/// The checkpoints of a folder, the newest first.
+struct Checkpoints {
+    used: Vec<Checkpoint>,
+    /// How many are there, the damaged ones included.
+    files: usize,
+    notices: Vec<String>,
+}
+
+fn checkpoints(folder: &Path) -> Checkpoints {
+    let mut found = Checkpoints { used: Vec::new(), files: 0, notices: Vec::new() };
+    for name in [CHECKPOINT, CHECKPOINT_PREVIOUS] {
+        found.files += usize::from(folder.join(name).exists());
+        match checkpoint::read(&folder.join(name)) {
+            Ok(Some(checkpoint)) => found.used.push(checkpoint),
+            Ok(None) => {}
+            Err(damage) => found.notices.push(format!("{name} is not used: {damage}")),
+        }
+    }
+    found
 }
 
 /// What a run without a checkpoint to go on from does.
