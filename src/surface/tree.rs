@@ -3,7 +3,7 @@
 use super::triangle::{Triangle, closest_on_triangle, over_triangle, square, sub};
 
 /// Triangles in a leaf.
-const LEAF: usize = 2;
+const LEAF: usize = 4;
 
 /// What a search finds: a point, its triangle, and its squared distance.
 #[derive(Clone, Copy, PartialEq, Debug)]
