@@ -9,6 +9,9 @@ const EDGE: f64 = 1e-9;
 /// Exporters round to millimetres (ECOSYSTEM §3b): nearer than this share of the size, faces touch, and layers are one.
 const ROUNDING: f64 = 1e-4;
 
+/// Times the rounding that layers must be apart, so that a slit in the upper one is told from a bend.
+const SLIT: f64 = 10.0;
+
 /// How much of a triangle may be seen from above.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Seen {
@@ -83,10 +86,16 @@ impl Skin {
         };
         self.layers =
             Some(Layers { clear: (!clear.is_empty()).then(|| tree(&clear)), covered: tree(&covered) });
-        for i in covered.into_iter().map(|i| i as usize) {
-            let [a, b, c] = self.triangles[i];
-            let middle = std::array::from_fn(|k| (a[k] + b[k] + c[k]) / 3.0);
-            self.seen[i] = if self.is_below(middle) { Seen::NotMiddle } else { Seen::Middle };
+        for &i in &covered {
+            self.seen[i as usize] = Seen::NotMiddle;
+        }
+        let middle = |&i: &u32| {
+            let [a, b, c] = self.triangles[i as usize];
+            std::array::from_fn(|k| (a[k] + b[k] + c[k]) / 3.0)
+        };
+        let is_seen: Vec<bool> = covered.iter().map(|i| !self.is_below(middle(i))).collect();
+        for (&i, _) in covered.iter().zip(is_seen).filter(|(_, is_seen)| *is_seen) {
+            self.seen[i as usize] = Seen::Middle;
         }
     }
 
@@ -115,9 +124,8 @@ impl Skin {
             return near.map(|n| n.point[2]);
         }
         let wide = self.tree.highest(x, y, self.rounding);
-        // Through a slit between faces of the upper layer the lower one is seen, which is in the plane of neither.
         let best = match (near, wide) {
-            (Some(n), Some(w)) if self.is_off(w.point, n.triangle) && self.is_off(n.point, w.triangle) => w,
+            (Some(n), Some(w)) if self.is_slit(n, w) => w,
             (Some(n), _) => n,
             (None, w) => w?,
         };
@@ -129,8 +137,13 @@ impl Skin {
         dot(sub(p, self.triangles[triangle as usize][0]), self.normals[triangle as usize])
     }
 
-    fn is_off(&self, p: [f64; 3], triangle: u32) -> bool {
-        self.height_off(p, triangle).abs() > self.rounding
+    /// Whether the point found near by is one of a lower layer, seen through a slit between faces of the upper one: what is found
+    /// farther off lies apart from it, and not because it is steep there.
+    fn is_slit(&self, near: Over, wide: Over) -> bool {
+        let is_off = |p, triangle| self.height_off(p, triangle).abs() > SLIT * self.rounding;
+        self.seen[near.triangle as usize] == Seen::NotMiddle
+            && is_off(wide.point, near.triangle)
+            && is_off(near.point, wide.triangle)
     }
 
     /// Whether the skin lies above a point.
