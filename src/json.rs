@@ -46,7 +46,7 @@ pub fn read<T: DeserializeOwned>(text: &str) -> Result<T, JsonError> {
 fn wrong(key: &str, error: &serde_json::Error, text: &str) -> JsonError {
     let message = match no_number(error, text) {
         Some(word) => format!(
-            "found {word}, which is no number: what wrote the file could not compute it (line {}, column {})",
+            "found {word}, which is no number: what wrote the file could not compute it, at line {} column {}",
             error.line(),
             error.column()
         ),

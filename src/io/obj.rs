@@ -277,11 +277,11 @@ mod tests {
 
     #[test]
     fn a_backslash_ends_comments_and_names_but_joins_numbers() {
-        let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\n# from C:\\roofs\\\nl 1 2 3\nmtllib C:\\roofs\\\nl 2 \\ # on\n\
-                    1 \nusemtl a \\\nf 1 \\\n2 \\\n 3\n";
+        let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 5 0 0\nv 6 0 0\n# from C:\\roofs\\\nl 1 2 3\nmtllib C:\\roofs\\\n\
+                    l 4 \\ # on\n5 \nusemtl a \\\nf 1 \\\n2 \\\n 3\n";
         let obj = parse(text).unwrap();
-        assert_eq!(obj.polylines, [vec![0, 1, 2], vec![1, 0]]);
-        assert_eq!((obj.faces, obj.face_lines), (vec![vec![0, 1, 2]], vec![10]));
+        assert_eq!(obj.polylines, [vec![0, 1, 2], vec![3, 4]]);
+        assert_eq!((obj.faces, obj.face_lines), (vec![vec![0, 1, 2]], vec![12]));
     }
 
     #[test]
@@ -296,12 +296,17 @@ mod tests {
     #[test]
     fn pieces_that_share_no_vertex_are_joined_by_their_places() {
         let square =
-            "v 0 0 0\nv 10 0 0\nv 10 0 0\nv 10 10 0\nv 10.0004 10 0\nv 0 10 0\nl 1 2\nl 3 4\nl 5 6\nl 6 1\n";
+            "v 0 0 0\nv 10 0 0\nv 10 0 0\nv 10 10 0\nv 10 10 0\nv 0 10 0\nl 1 2\nl 3 4\nl 5 6\nl 6 1\n";
         let obj = parse(square).unwrap();
         assert_eq!(obj.polylines, [vec![0, 1, 3, 5, 0]]);
+        assert_eq!(obj.polyline_gaps, [0.0]);
+        // A gap at two corners: what is within 1e-4 of the size is joined, what is farther is not.
+        let apart =
+            |gap: &str| square.replacen("v 10 0 0\nv 10 10 0", &format!("v 10 {gap} 0\nv 10 9.9997 0"), 1);
+        let obj = parse(&apart("0.0004")).unwrap();
+        assert_eq!(obj.polylines, [vec![4, 5, 0, 1, 3]]);
         assert!((obj.polyline_gaps[0] - 0.0004).abs() < 1e-12);
-        let apart = square.replace("10.0004", "10.01");
-        assert_eq!(parse(&apart).unwrap().polylines, [vec![4, 5, 0, 1, 3]], "open");
+        assert_eq!(parse(&apart("0.01")).unwrap().polylines.len(), 1, "open, joined at the other corner");
     }
 
     #[test]

@@ -61,12 +61,16 @@ fn without_mark(bytes: &[u8]) -> &[u8] {
 
 /// A text that begins with the byte order mark of UTF-16.
 fn utf16(bytes: &[u8]) -> Option<Result<String, (usize, String)>> {
-    let (rest, unit): (&[u8], fn([u8; 2]) -> u16) = match bytes {
-        [0xFF, 0xFE, rest @ ..] => (rest, u16::from_le_bytes),
-        [0xFE, 0xFF, rest @ ..] => (rest, u16::from_be_bytes),
+    let (rest, low_first) = match bytes {
+        [0xFF, 0xFE, rest @ ..] => (rest, true),
+        [0xFE, 0xFF, rest @ ..] => (rest, false),
         _ => return None,
     };
-    let units: Vec<u16> = rest.chunks_exact(2).map(|pair| unit([pair[0], pair[1]])).collect();
+    let unit = |pair: &[u8]| match low_first {
+        true => u16::from_le_bytes([pair[0], pair[1]]),
+        false => u16::from_be_bytes([pair[0], pair[1]]),
+    };
+    let units: Vec<u16> = rest.chunks_exact(2).map(unit).collect();
     let whole = rest.len() % 2 == 0;
     let text = String::from_utf16(&units).ok().filter(|_| whole);
     Some(text.ok_or_else(|| (1, "a broken text in UTF-16; save the file as UTF-8".to_owned())))

@@ -50,7 +50,7 @@ pub(super) fn closest_on_triangle(p: [f64; 3], &[a, b, c]: &Triangle) -> ([f64; 
     let va = d3 * d6 - d5 * d4;
     if va <= 0.0 && d4 >= d3 && d5 >= d6 {
         let bc = sub(c, b);
-        return along(b, bc, (dot(bc, bp) / square(bc)).max(0.0).min(1.0));
+        return along(b, bc, (dot(bc, bp) / square(bc)).clamp(0.0, 1.0));
     }
     let denominator = 1.0 / (va + vb + vc);
     let (v, w) = (vb * denominator, vc * denominator);
