@@ -9,6 +9,7 @@ use std::fs;
 use std::path::Path;
 
 type Mesh = (Vec<[f64; 3]>, Vec<Vec<u32>>);
+type Height = Box<dyn Fn(f64, f64) -> f64>;
 
 fn study(file: &Path, sets: &[String]) -> Study {
     let config = config::load(file, sets).unwrap();
@@ -29,7 +30,7 @@ fn pyramid([x0, y0]: [f64; 2], half: f64, low: f64, high: f64) -> impl Fn(f64, f
 
 #[test]
 fn every_vertex_is_on_the_upper_skin() {
-    let roofs: [(&str, Box<dyn Fn(f64, f64) -> f64>); 3] = [
+    let roofs: [(&str, Height); 3] = [
         ("surface_mixed_winding.toml", Box::new(|_, y| 3.0 - 3.0 * f64::abs(y) / 12.0)),
         ("surface_closed_solid.toml", Box::new(pyramid([1.1, 2.3], 13.2, 0.0, 3.0))),
         ("surface_two_layers.toml", Box::new(pyramid([0.3, 0.7], 12.0, 2.0, 3.0))),
