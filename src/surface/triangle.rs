@@ -118,6 +118,13 @@ pub(super) fn overlap(s: &Triangle, t: &Triangle, tolerance: f64) -> bool {
 /// The angle under which a triangle is seen from a point of it: 2π inside, π on an edge, its own angle in a corner; none farther
 /// than `reach` from it. What is nearer than `reach` counts as at.
 pub(super) fn angle_at(t: &Triangle, p: [f64; 3], reach: f64) -> Option<f64> {
+    let is_beside = |k: usize| {
+        let at = t.map(|corner| corner[k]);
+        p[k] < at[0].min(at[1]).min(at[2]) - reach || p[k] > at[0].max(at[1]).max(at[2]) + reach
+    };
+    if (0..3).any(is_beside) {
+        return None;
+    }
     let near = |q: [f64; 3]| square(sub(q, p)) <= reach * reach;
     if let Some(k) = (0..3).find(|&k| near(t[k])) {
         let (u, v) = (sub(t[(k + 1) % 3], t[k]), sub(t[(k + 2) % 3], t[k]));
