@@ -35,6 +35,7 @@ mod signals;
 mod skeleton;
 mod topology;
 mod verify;
+mod watch;
 mod writing;
 
 pub use console::{Console, ConsoleArgs};

@@ -26,13 +26,12 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     if loaded.is_unfinished {
         console.note(&unfinished(folder, &loaded));
     }
-    // The page says what the run found, and needs none of these; other commands do.
-    for error in
-        inputs::again(&loaded.manifest, &loaded.config, args.run.inputs.as_deref()).err().iter().flatten()
-    {
+    // The page says what the run found, and needs these only to group designs; other commands need them.
+    let inputs = inputs::again(&loaded.manifest, &loaded.config, args.run.inputs.as_deref());
+    for error in inputs.as_ref().err().into_iter().flatten() {
         console.warn(&error.to_string());
     }
-    let data = report::of(folder, loaded).map_err(|error| wrong(&error))?;
+    let data = report::of(folder, loaded, inputs.as_ref().ok()).map_err(|error| wrong(&error))?;
     let page = report::render(&data).map_err(|error| CliError::Failed(error.to_string()))?;
     let path = folder.join(REPORT);
     atomic::write(&path, page.as_bytes()).map_err(CliError::write(&path))?;

@@ -4,25 +4,23 @@ use super::config_args::ConfigArgs;
 use super::folder_args::refuse_file;
 use super::progress::{Display, duration};
 use super::quote::quote;
+use super::watch::Watch;
 use super::writing::WritingDisplay;
 use super::{CliError, Console, exit, signals};
 use quadrille::config::{Config, Project, to_toml};
-use quadrille::mesh::Code;
 use quadrille::output::folder::{Folder, FolderError, Opening, PARETO, REPORT, excel_name};
 use quadrille::output::manifest::Status;
+use quadrille::output::number::significant;
 use quadrille::output::obstacles::Obstacles;
 use quadrille::output::report;
 use quadrille::output::results::{self, Run};
 use quadrille::output::sitting::Sitting;
 use quadrille::output::table::Dialect;
 use quadrille::random;
-use quadrille::search::{
-    self, Ended, Evaluation, GenerationRow, Observer, Outcome, Progress, Settings, StopFlag, Store,
-    ThreadServer,
-};
+use quadrille::search::{self, Ended, Outcome, Settings, StopFlag, Store, ThreadServer};
 use quadrille::study::Study;
 use std::io::ErrorKind;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -76,18 +74,23 @@ enum CsvDialect {
 pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     let mut project = args.config.load(&args.sets())?;
     let study = args.config.study(&project)?;
-    let mut folder = args.open_folder(&project.config)?;
+    // Before the folder is touched: a run without threads leaves it as it was.
+    let server = ThreadServer::new(&study, project.config.run.threads)?;
+    let path = args.folder(&project.config);
+    refuse_file(&path)?;
+    let seed = fix_seed(&mut project.config, &path, args.resume)?;
+    let mut folder = args.open(&path, &project)?;
     for warning in study.warnings().into_iter().chain(folder.unlocked()) {
         console.warn(&warning);
     }
-    fix_seed(&mut project.config, &folder, args.resume, console)?;
+    seed.iter().for_each(|told| console.note(told));
     let (mut store, sitting) = args.begin(&mut folder, &project)?;
     folder.take_warnings().iter().for_each(|warning| console.warn(warning));
     let stop = StopFlag::new();
     let clock = Instant::now();
     let mut watch =
         Watch { display: Display::new(&project.config, study.baseline(), *console), sitting, folder };
-    let outcome = evolve(&study, &project.config, &mut store, &stop, &mut watch, console)?;
+    let outcome = evolve(&study, server, &project.config, &mut store, &stop, &mut watch, console)?;
     let Watch { mut sitting, mut folder, .. } = watch;
     let dialect = args.dialect(&folder);
     let run = Run { study: &study, project: &project, outcome: &outcome, dialect };
@@ -137,17 +140,23 @@ impl Args {
         pairs.into_iter().flatten().collect()
     }
 
-    /// The results folder, locked.
-    fn open_folder(&self, config: &Config) -> Result<Folder, CliError> {
+    /// Where the results go.
+    fn folder(&self, config: &Config) -> PathBuf {
         let name = config.run.name.as_deref().unwrap_or("run");
-        let path = self.out.clone().unwrap_or_else(|| PathBuf::from("results").join(name));
+        self.out.clone().unwrap_or_else(|| PathBuf::from("results").join(name))
+    }
+
+    /// The results folder, locked, of a run that can be begun or gone on with there.
+    fn open(&self, path: &Path, project: &Project) -> Result<Folder, CliError> {
         let opening = match (self.resume, self.force) {
             (true, _) => Opening::Resume,
             (_, true) => Opening::Overwrite,
             _ => Opening::New,
         };
-        refuse_file(&path)?;
-        Folder::open(&path, opening).map_err(|error| match error {
+        if self.resume {
+            Store::check(path, &results::record(project)).map_err(refused)?;
+        }
+        Folder::open(path, opening).map_err(|error| match error {
             FolderError::Io { ref source, .. } if source.kind() == ErrorKind::StorageFull => {
                 CliError::Failed(error.to_string())
             }
@@ -155,13 +164,9 @@ impl Args {
         })
     }
 
-    /// Refuses a run that cannot be gone on with, then makes the folder this run's.
+    /// Makes the folder this run's.
     fn begin(&self, folder: &mut Folder, project: &Project) -> Result<(Store, Sitting), CliError> {
         let record = results::record(project);
-        let refused = |error: search::StoreError| match error {
-            search::StoreError::Io { .. } => CliError::Failed(error.to_string()),
-            refused => CliError::Input(refused.to_string()),
-        };
         let threads = match project.config.run.threads {
             0 => std::thread::available_parallelism().map_or(1, usize::from),
             threads => threads,
@@ -202,59 +207,33 @@ impl Args {
     }
 }
 
-/// The seed of the config, else that of the run to be resumed, else one drawn and told.
-fn fix_seed(config: &mut Config, folder: &Folder, resume: bool, console: &Console) -> Result<(), CliError> {
+/// A store that cannot be used; for `map_err`.
+fn refused(error: search::StoreError) -> CliError {
+    match error {
+        search::StoreError::Io { .. } => CliError::Failed(error.to_string()),
+        refused => CliError::Input(refused.to_string()),
+    }
+}
+
+/// The seed of the config, else that of the run to be resumed, else one drawn; what is told of one not in the config.
+fn fix_seed(config: &mut Config, folder: &Path, resume: bool) -> Result<Option<String>, CliError> {
     if config.run.seed.is_some() {
-        return Ok(());
+        return Ok(None);
     }
     let recorded = match resume {
-        true => Store::recorded_config(folder.path()).map_err(|error| CliError::Input(error.to_string()))?,
+        true => Store::recorded_config(folder).map_err(|error| CliError::Input(error.to_string()))?,
         false => None,
     };
     let recorded = recorded.and_then(|config| config.get("run")?.get("seed")?.as_u64());
     let seed = recorded.unwrap_or_else(random::fresh_seed);
-    console
-        .note(&format!("seed {seed}{}", if recorded.is_some() { ", of the run resumed" } else { ", drawn" }));
     config.run.seed = Some(seed);
-    Ok(())
-}
-
-/// Who hears of the search: the user, and the manifest.
-struct Watch {
-    display: Display,
-    sitting: Sitting,
-    folder: Folder,
-}
-
-impl Observer for Watch {
-    fn design(&mut self, code: Code, evaluation: &Evaluation) {
-        self.display.design(code, evaluation);
-    }
-
-    fn evaluated(&mut self, progress: &Progress) {
-        self.display.evaluated(progress);
-    }
-
-    fn generation(&mut self, row: &GenerationRow) {
-        self.display.generation(row);
-        // A manifest that cannot be written ends the run no sooner than a table that cannot.
-        if let Err(error) = self.sitting.generation(&mut self.folder, row) {
-            self.display.warning(&error.to_string());
-        }
-    }
-
-    fn notice(&mut self, message: &str) {
-        self.display.notice(message);
-    }
-
-    fn warning(&mut self, message: &str) {
-        self.display.warning(message);
-    }
+    Ok(Some(format!("seed {seed}{}", if recorded.is_some() { ", of the run resumed" } else { ", drawn" })))
 }
 
 /// Runs the search.
 fn evolve(
     study: &Study,
+    server: ThreadServer<'_, Study>,
     config: &Config,
     store: &mut Store,
     stop: &StopFlag,
@@ -271,7 +250,6 @@ fn evolve(
     let tell = watch.display.teller();
     let told = "ending with the evaluations in flight; another signal after a second aborts at once";
     signals::install(stop, move || tell(told)).map_err(failed)?;
-    let server = ThreadServer::new(study, config.run.threads).map_err(failed)?;
     console.note(&format!(
         "{}: population {}, {} generations, {} threads, minimising {}",
         config.run.name.as_deref().unwrap_or_default(),
@@ -305,7 +283,7 @@ fn summarise(study: &Study, outcome: &Outcome, folder: &Folder, clock: Instant, 
         let values = outcome.front.iter().map(|&row| outcome.evaluated[row].objectives[i]);
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
         if low.is_finite() {
-            outln!("  {:<24} {low:>12.6} to {high:>12.6}", objective.column);
+            outln!("  {:<24} {:>12} to {:>12}", objective.column, significant(low), significant(high));
         }
     }
     if outcome.front.is_empty() {

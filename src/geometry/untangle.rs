@@ -6,7 +6,7 @@
 //! lowered until none is left. Boundary edges have ½ (d² + 1) / χ(d), d their arc length ÷ ℓ, so that vertices keep their order; inner
 //! vertices that are beyond a smooth loop, or nearly so, are driven back by w f², w doubling from round to round (PATTERN §3).
 
-use super::optimise::descent::{Bounds, Energy, descend, preconditioner};
+use super::optimise::descent::{Bounds, Energy, descend};
 use super::optimise::net::{Net, Places};
 use super::vector::Vec3;
 
@@ -36,22 +36,20 @@ pub fn untangle(net: &Net<'_>, rest: f64) -> Option<Vec<f64>> {
     if flat.is_clean(&x) {
         return None;
     }
-    if let Some(factor) = preconditioner(net, &flat.places) {
-        let bounds = Bounds { iterations: STEPS, tolerance: 1e-4, rest };
-        let (mut best, mut best_round) = (f64::NEG_INFINITY, 0);
-        for round in 0..ROUNDS {
-            let least = flat.least(&x).min(0.0);
-            if least > best {
-                (best, best_round) = (least, round);
-            } else if round - best_round >= PATIENCE && least < 0.0 {
-                break;
-            }
-            flat.epsilon = (LEAST_EPSILON * LEAST_EPSILON + 0.04 * least * least).sqrt();
-            flat.outside_weight = ((1u64 << round) as f64).min(MOST_WEIGHT);
-            descend(net, &mut flat, &factor, &mut x, bounds);
-            if flat.is_clean(&x) {
-                break;
-            }
+    let bounds = Bounds { iterations: STEPS, tolerance: 1e-4, rest };
+    let (mut best, mut best_round) = (f64::NEG_INFINITY, 0);
+    for round in 0..ROUNDS {
+        let least = flat.least(&x).min(0.0);
+        if least > best {
+            (best, best_round) = (least, round);
+        } else if round - best_round >= PATIENCE && least < 0.0 {
+            break;
+        }
+        flat.epsilon = (LEAST_EPSILON * LEAST_EPSILON + 0.04 * least * least).sqrt();
+        flat.outside_weight = ((1u64 << round) as f64).min(MOST_WEIGHT);
+        descend(net, &mut flat, &mut x, bounds);
+        if flat.is_clean(&x) {
+            break;
         }
     }
     Some(x)
@@ -59,12 +57,8 @@ pub fn untangle(net: &Net<'_>, rest: f64) -> Option<Vec<f64>> {
 
 /// A few steps more down the same energy, where no corner is folded: panels come nearer to squares of edge length `rest`.
 pub fn even_out(net: &Net<'_>, rest: f64, mut x: Vec<f64>) -> Vec<f64> {
-    let mut flat = Flat::new(net, rest);
-    flat.place(&x);
-    if let Some(factor) = preconditioner(net, &flat.places) {
-        let bounds = Bounds { iterations: EVENING_STEPS, tolerance: 1e-4, rest };
-        descend(net, &mut flat, &factor, &mut x, bounds);
-    }
+    let bounds = Bounds { iterations: EVENING_STEPS, tolerance: 1e-4, rest };
+    descend(net, &mut Flat::new(net, rest), &mut x, bounds);
     x
 }
 

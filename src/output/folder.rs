@@ -1,13 +1,14 @@
 //! The results folder: where each file is, who may write, and whether a run is finished.
 
 use super::atomic;
+use super::holds::{check, is_journal, listed};
 use super::ledger::{Files, Ledger};
 use super::lock::{Lock, Try};
-use super::manifest::{Manifest, Status};
+use super::manifest::{Manifest, ManifestError, Status};
 use crate::io::{hex, sha256};
 use sha2::{Digest, Sha256};
-use std::fs::{self, File};
-use std::io::{self, Read, Write};
+use std::fs;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Files of the front as a table.
@@ -35,14 +36,16 @@ pub const DESIGN_EXPLORER: &str = "design_explorer";
 /// Folder of the pictures that `explain` draws.
 pub const EXPLAINED: &str = "explained";
 /// Every evaluation of a run, as they come.
-pub const JOURNAL: &str = "evaluations.jsonl";
+pub const JOURNAL: &str = "evaluations.journal";
+/// Its name in runs of quadrille 0.1, which go on with it.
+pub const JOURNAL_BEFORE: &str = "evaluations.jsonl";
 
 /// The tables of a run.
 pub const TABLES: [&str; 4] = [PARETO, HISTORY, GENERATIONS, OPERATORS];
 /// Files that change while a run goes on, or whenever somebody asks for it: the program's own, whatever is in them.
-const CHANGING: [&str; 5] = [MANIFEST, CHECKPOINT, CHECKPOINT_PREVIOUS, JOURNAL, REPORT];
+pub(super) const CHANGING: [&str; 5] = [MANIFEST, CHECKPOINT, CHECKPOINT_PREVIOUS, JOURNAL, REPORT];
 /// Folders that hold nothing of the run's own but what its manifest lists.
-const FOLDERS: [&str; 3] = [DESIGNS, DESIGN_EXPLORER, EXPLAINED];
+pub(super) const FOLDERS: [&str; 3] = [DESIGNS, DESIGN_EXPLORER, EXPLAINED];
 
 /// Why a results folder cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -67,6 +70,14 @@ pub enum FolderError {
     /// A file is where a folder has to be.
     #[error("{} is no folder, and a run needs one of that name; give another --out", .0.display())]
     NoFolder(PathBuf),
+    /// A later program wrote it: what is whose cannot be told.
+    #[error("{}: {reason}; or give another --out", path.display())]
+    Newer {
+        /// The manifest.
+        path: PathBuf,
+        /// Whose it is.
+        reason: ManifestError,
+    },
     /// There is nothing to go on with.
     #[error("{} holds no checkpoint to resume", .0.display())]
     NoCheckpoint(PathBuf),
@@ -89,29 +100,6 @@ pub enum Opening {
     Overwrite,
     /// Go on with an interrupted run.
     Resume,
-}
-
-/// What a folder is.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Holds {
-    /// No run.
-    Nothing,
-    /// A run that can be gone on with.
-    Interrupted,
-    /// One that ended by its limits.
-    Finished,
-}
-
-impl Holds {
-    /// What a folder holds, by the files that only this program writes: others have their own `manifest.json`.
-    fn of(folder: &Path) -> Self {
-        match Manifest::read(folder) {
-            Some(manifest) if manifest.status == Status::Finished => Self::Finished,
-            Some(_) => Self::Interrupted,
-            None if has_state(folder) => Self::Interrupted,
-            None => Self::Nothing,
-        }
-    }
 }
 
 /// A results folder that this process alone may write to, as long as the value lives.
@@ -322,57 +310,11 @@ pub fn list(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), FolderError> 
     atomic::write(&path, &manifest.to_json()).map_err(|source| FolderError::Io { path, source })
 }
 
-/// Refuses a folder that `opening` does not allow for.
-fn check(folder: &Path, opening: Opening, has_lock: bool) -> Result<(), FolderError> {
-    let holds = Holds::of(folder);
-    let path = || folder.to_path_buf();
-    match (opening, holds) {
-        (Opening::New, Holds::Finished) => return Err(FolderError::Finished(path())),
-        (Opening::New, Holds::Interrupted) => return Err(FolderError::Interrupted(path())),
-        (Opening::New, Holds::Nothing) => refuse_occupied(folder)?,
-        // Killed before it wrote anything, a run has left its lock; to resume it is to start it.
-        (Opening::Resume, Holds::Nothing) if !has_lock => return Err(FolderError::NoCheckpoint(path())),
-        (Opening::Resume, Holds::Nothing) => refuse_occupied(folder)?,
-        (Opening::Resume, Holds::Finished) if !has_state(folder) => {
-            return Err(FolderError::NoCheckpoint(path()));
-        }
-        (Opening::Resume | Opening::Overwrite, _) => {}
-    }
-    match FOLDERS.iter().map(|name| folder.join(name)).find(|path| path.exists() && !path.is_dir()) {
-        Some(path) => Err(FolderError::NoFolder(path)),
-        None => Ok(()),
-    }
-}
-
-/// Refuses a folder with something of others under the names of a run's.
-fn refuse_occupied(folder: &Path) -> Result<(), FolderError> {
-    let names = CHANGING.into_iter().chain(TABLES).chain([DESIGNS, DESIGN_EXPLORER]).map(str::to_owned);
-    let mut names = names.chain(TABLES.map(excel_name));
-    match names.find(|name| folder.join(name).exists()) {
-        None => Ok(()),
-        Some(name) => Err(FolderError::Occupied { path: folder.to_path_buf(), name }),
-    }
-}
-
-/// The files that runs have written into a folder, by its manifest; of a run that was not listed, those of its names.
-fn listed(folder: &Path) -> Files {
-    let files = Manifest::read(folder).map(|manifest| manifest.files).unwrap_or_default();
-    if !files.is_empty() || Holds::of(folder) == Holds::Nothing {
-        return files;
-    }
-    let names = CHANGING.into_iter().chain(TABLES).map(str::to_owned).chain(TABLES.map(excel_name));
-    names.filter(|name| folder.join(name).exists()).map(|name| (name, None)).collect()
-}
-
-/// Whether there is a journal or a checkpoint, and of this program's: other programs have files of these names too.
-fn has_state(folder: &Path) -> bool {
-    let names =
-        [(JOURNAL, "{\"journal\":"), (CHECKPOINT, "\"checksum\":"), (CHECKPOINT_PREVIOUS, "\"checksum\":")];
-    names.iter().any(|(name, mark)| {
-        let mut start = Vec::new();
-        let read = File::open(folder.join(name)).and_then(|file| file.take(128).read_to_end(&mut start));
-        read.is_ok() && String::from_utf8_lossy(&start).contains(mark)
-    })
+/// The journal of a folder: a run that was begun under its old name keeps it.
+pub fn journal(folder: &Path) -> PathBuf {
+    let [path, before] = [JOURNAL, JOURNAL_BEFORE].map(|name| folder.join(name));
+    // Tables of evaluations by other programs have that name too.
+    if !path.exists() && is_journal(&before) { before } else { path }
 }
 
 /// The name of a table's copy for a spreadsheet with decimal commas: `pareto.csv` → `pareto.excel-eu.csv`.

@@ -10,6 +10,7 @@ pub mod explanation;
 pub mod explorer;
 pub mod folder;
 pub mod generations;
+mod holds;
 pub mod inputs;
 pub mod ledger;
 pub mod load;

@@ -9,12 +9,12 @@ use super::generations::{generations, operators};
 use super::obj::obj;
 use super::obstacles::nearest_misses;
 use super::polygons::Polygons;
-use super::svg::{Shade, svg};
+use super::svg::{Plan, Shade, svg};
 use super::table::{Dialect, Table};
 use crate::config::Project;
 use crate::mesh::{CanonicalMesh, Code};
 use crate::objectives::METRICS;
-use crate::search::{EvaluatedRow, Evaluation, Outcome};
+use crate::search::{EvaluatedRow, Evaluation, Outcome, ThreadsError, thread_pool};
 use crate::structure::gridshell::{Detailed, Proof};
 use crate::study::{Design, Failure, Reached, Study};
 use serde_json::Value as Json;
@@ -31,7 +31,7 @@ pub enum ResultsError {
     Folder(#[from] FolderError),
     /// The system does not give the threads.
     #[error(transparent)]
-    Threads(#[from] rayon::ThreadPoolBuildError),
+    Threads(#[from] ThreadsError),
     /// A design of the front can no longer be made: the program contradicts itself.
     #[error("design {id}: {reason}")]
     Design {
@@ -166,7 +166,7 @@ impl Run<'_> {
         let rows = self.rows();
         let explored: BTreeSet<Code> =
             self.front().into_iter().chain(self.baseline()).map(|row| row.code).collect();
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+        let pool = thread_pool(threads)?;
         let over = AtomicBool::new(false);
         let (sender, made) = mpsc::channel();
         let mut done = 0;
@@ -309,8 +309,23 @@ impl Developed {
     pub fn plan(&self, id: &str) -> Vec<u8> {
         let curvature = PanelShapes::of(&self.design.pattern).curvature;
         // A fixed scale, so that designs can be compared by eye.
-        let shade = Shade { label: "panel curvature", values: &curvature, darkest: 0.05 };
-        svg(&self.design.pattern, &format!("design {id}"), Some(&shade))
+        let shade = Some(Shade { label: "panel curvature", values: &curvature, darkest: 0.05 });
+        svg(&self.design.pattern, &self.title(id), &Plan { shade, supports: self.supports() })
+    }
+
+    /// What pictures of it are called.
+    pub(super) fn title(&self, id: &str) -> String {
+        let pattern = &self.design.pattern;
+        format!("design {id}: {} panels, {} members", pattern.panels.len(), pattern.edges.len())
+    }
+
+    /// Its supported nodes, and whether they are held horizontally; none where nothing was analysed.
+    pub(super) fn supports(&self) -> Vec<([f64; 3], bool)> {
+        let Some(frame) = self.results.as_ref().map(|results| &results.model.frame) else {
+            return Vec::new();
+        };
+        let nodes = frame.supported().map(|node| node.0 as usize);
+        nodes.map(|n| (frame.nodes()[n], frame.fixed()[n][0] || frame.fixed()[n][1])).collect()
     }
 
     /// The files of `designs/`.

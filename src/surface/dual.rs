@@ -4,7 +4,7 @@ use super::algebra::Algebra;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A number that functions of one and two arguments can be applied to by the chain rule.
-pub(super) trait Real: Algebra {
+pub(super) trait Real: Algebra + From<f64> {
     /// The number without its derivatives.
     fn value(self) -> f64;
 
@@ -50,7 +50,7 @@ impl<T: Algebra> Dual<T> {
     /// The variables x and y themselves.
     #[inline(always)]
     pub(super) fn variables(x: T, y: T) -> [Self; 2] {
-        let (zero, one) = (T::from(0.0), T::from(1.0));
+        let (zero, one) = (x.constant(0.0), x.constant(1.0));
         [Self { value: x, slope: [one, zero] }, Self { value: y, slope: [zero, one] }]
     }
 
@@ -61,10 +61,10 @@ impl<T: Algebra> Dual<T> {
     }
 }
 
-impl<T: Algebra> From<f64> for Dual<T> {
-    #[inline(always)]
+impl From<f64> for Dual {
+    #[inline]
     fn from(value: f64) -> Self {
-        Self { value: T::from(value), slope: [T::from(0.0), T::from(0.0)] }
+        Self { value, slope: [0.0; 2] }
     }
 }
 
@@ -99,9 +99,33 @@ impl<T: Algebra> Div for Dual<T> {
     #[inline(always)]
     fn div(self, o: Self) -> Self {
         let value = self.value / o.value;
-        let inverse = T::from(1.0) / o.value;
+        let inverse = o.value.constant(1.0) / o.value;
         let by = |i: usize| (self.slope[i] - value * o.slope[i]) * inverse;
         Self { value, slope: [by(0), by(1)] }
+    }
+}
+
+impl<T: Algebra> Add<f64> for Dual<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, o: f64) -> Self {
+        Self { value: self.value + o, ..self }
+    }
+}
+
+impl<T: Algebra> Sub<f64> for Dual<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, o: f64) -> Self {
+        Self { value: self.value - o, ..self }
+    }
+}
+
+impl<T: Algebra> Mul<f64> for Dual<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, o: f64) -> Self {
+        Self { value: self.value * o, slope: self.slope.map(|s| s * o) }
     }
 }
 
@@ -114,6 +138,12 @@ impl<T: Algebra> Neg for Dual<T> {
 }
 
 impl<T: Algebra> Algebra for Dual<T> {
+    #[inline(always)]
+    fn constant(self, value: f64) -> Self {
+        let zero = self.value.constant(0.0);
+        Self { value: self.value.constant(value), slope: [zero, zero] }
+    }
+
     #[inline(always)]
     fn sqrt(self) -> Self {
         let root = self.value.sqrt();

@@ -4,8 +4,8 @@
 use super::algebra::Algebra;
 use super::dual::Dual;
 use super::height::HeightFunction;
-use super::lanes::{LANES, Lanes};
-use crate::simd::wide;
+use crate::simd::{Vector, with_vectors};
+use pulp::{Simd, WithSimd};
 
 /// Radius of the reading room's circle about the origin, m.
 const A: f64 = 22.245;
@@ -38,37 +38,11 @@ impl HeightFunction for GreatCourt {
     }
 
     fn lift_all(&self, points: &mut [[f64; 3]]) {
-        let mut batches = points.chunks_exact_mut(LANES);
-        for batch in &mut batches {
-            let (mut x, mut y) = ([0.0; LANES], [0.0; LANES]);
-            for (i, point) in batch.iter().enumerate() {
-                (x[i], y[i]) = within_walls(point[0], point[1]);
-            }
-            let Lanes(z) = roof(Lanes(x), Lanes(y));
-            for (i, point) in batch.iter_mut().enumerate() {
-                point[2] = rim(x[i], y[i]).unwrap_or(z[i]);
-            }
-        }
-        for point in batches.into_remainder() {
-            point[2] = self.z(point[0], point[1]);
-        }
+        with_vectors(Heights(points));
     }
 
     fn lift_all_with_slopes(&self, points: &mut [[f64; 3]], slopes: &mut [[f64; 2]]) {
-        wide(
-            #[inline(always)]
-            || {
-                let whole = points.len() - points.len() % LANES;
-                let batches = points[..whole].chunks_exact_mut(LANES);
-                for (batch, slopes) in batches.zip(slopes[..whole].chunks_exact_mut(LANES)) {
-                    lift_batch(batch, slopes);
-                }
-                for (point, slope) in points[whole..].iter_mut().zip(&mut slopes[whole..]) {
-                    point[2] = self.z(point[0], point[1]);
-                    *slope = self.gradient(point[0], point[1]);
-                }
-            },
-        );
+        with_vectors(HeightsAndSlopes(points, slopes));
     }
 
     fn gradient(&self, x: f64, y: f64) -> [f64; 2] {
@@ -92,19 +66,54 @@ impl HeightFunction for GreatCourt {
     }
 }
 
-/// Heights and slopes of [`LANES`] points.
+/// The heights of points.
+struct Heights<'a>(&'a mut [[f64; 3]]);
+
+impl WithSimd for Heights<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        for batch in self.0.chunks_mut(Vector::<S>::LANES) {
+            let [x, y] = plan(simd, batch);
+            let z = roof(x, y);
+            for (l, point) in batch.iter_mut().enumerate() {
+                point[2] = rim(x.numbers()[l], y.numbers()[l]).unwrap_or(z.numbers()[l]);
+            }
+        }
+    }
+}
+
+/// The heights of points, and the slopes there.
+struct HeightsAndSlopes<'a>(&'a mut [[f64; 3]], &'a mut [[f64; 2]]);
+
+impl WithSimd for HeightsAndSlopes<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let lanes = Vector::<S>::LANES;
+        for (batch, slopes) in self.0.chunks_mut(lanes).zip(self.1.chunks_mut(lanes)) {
+            let [x, y] = plan(simd, batch);
+            let [dual_x, dual_y] = Dual::variables(x, y);
+            let Dual { value: z, slope: [by_x, by_y] } = roof(dual_x, dual_y);
+            for (l, (point, slope)) in batch.iter_mut().zip(slopes).enumerate() {
+                let (x, y) = (x.numbers()[l], y.numbers()[l]);
+                point[2] = rim(x, y).unwrap_or(z.numbers()[l]);
+                *slope = if is_level(x, y) { [0.0; 2] } else { [by_x.numbers()[l], by_y.numbers()[l]] };
+            }
+        }
+    }
+}
+
+/// Points in plan, within the walls; the last again where there are fewer than lanes.
 #[inline(always)]
-fn lift_batch(batch: &mut [[f64; 3]], slopes: &mut [[f64; 2]]) {
-    let (mut x, mut y) = ([0.0; LANES], [0.0; LANES]);
-    for (i, point) in batch.iter().enumerate() {
-        (x[i], y[i]) = within_walls(point[0], point[1]);
-    }
-    let [dual_x, dual_y] = Dual::variables(Lanes(x), Lanes(y));
-    let Dual { value: Lanes(z), slope: [Lanes(by_x), Lanes(by_y)] } = roof(dual_x, dual_y);
-    for (i, (point, slope)) in batch.iter_mut().zip(slopes).enumerate() {
-        point[2] = rim(x[i], y[i]).unwrap_or(z[i]);
-        *slope = if is_level(x[i], y[i]) { [0.0; 2] } else { [by_x[i], by_y[i]] };
-    }
+fn plan<S: Simd>(simd: S, batch: &[[f64; 3]]) -> [Vector<S>; 2] {
+    let at = |l: usize| {
+        let point = &batch[l.min(batch.len() - 1)];
+        within_walls(point[0], point[1])
+    };
+    [Vector::of(simd, |l| at(l).0), Vector::of(simd, |l| at(l).1)]
 }
 
 /// Where the formula has no slope: in the corners, and within the circle.
@@ -138,39 +147,38 @@ fn rim(x: f64, y: f64) -> Option<f64> {
 /// corners alone.
 #[inline(always)]
 fn roof<T: Algebra>(x: T, y: T) -> T {
-    let k = T::from;
     let r = (x * x + y * y).sqrt();
     let sin = y / r;
     let sin2 = sin * sin;
-    let (east, west) = (k(B) - x, k(B) + x);
-    let (north, south) = (k(C) - y, k(D) + y);
+    let (east, west) = (-(x - B), x + B);
+    let (north, south) = (-(y - C), y + D);
     let walls = east * west * north * south;
-    let shrink = k(A) / r;
-    let psi = walls * k(1.0 / (B * B * C * D));
-    let (u, v) = (shrink * x * k(1.0 / B), shrink * y);
-    let eta = psi / ((k(1.0) - u * u) * (k(1.0) - v * k(1.0 / C)) * (k(1.0) + v * k(1.0 / D)));
-    let z1 = k(H1 - H0) * eta + k(H0);
-    let beyond = r * k(1.0 / A) - k(1.0);
+    let shrink = r.constant(A) / r;
+    let psi = walls * (1.0 / (B * B * C * D));
+    let (u, v) = (shrink * x * (1.0 / B), shrink * y);
+    let eta = psi / ((u * u).complement() * (v * (1.0 / C)).complement() * (v * (1.0 / D) + 1.0));
+    let z1 = eta * (H1 - H0) + H0;
+    let beyond = r * (1.0 / A) - 1.0;
     let z2 = second(beyond, psi, sin, sin2);
-    let sum = (east * east + north * north).sqrt() * west * south
-        + (east * east + south * south).sqrt() * west * north
-        + (west * west + north * north).sqrt() * east * south
-        + (west * west + south * south).sqrt() * east * north;
-    let beta = (k(1.0) - shrink) * walls / sum;
+    let (east2, west2, north2, south2) = (east * east, west * west, north * north, south * south);
+    let sum = (east2 + north2).sqrt() * (west * south)
+        + (east2 + south2).sqrt() * (west * north)
+        + (west2 + north2).sqrt() * (east * south)
+        + (west2 + south2).sqrt() * (east * north);
+    let beta = shrink.complement() * walls / sum;
     z1 + z2 + beta * third(east, north, south, sin, sin2)
 }
 
 /// z₂, with `beyond` = r/a − 1; uses (1 + cos 2θ)/2 = 1 − sin²θ and (1 − cos 2θ)/2 = sin²θ.
 #[inline(always)]
 fn second<T: Algebra>(beyond: T, psi: T, sin: T, sin2: T) -> T {
-    let k = T::from;
     let alpha = beyond * psi;
-    let cos2 = k(1.0) - sin2;
+    let cos2 = sin2.complement();
     let n = sin2 + sin;
     let m = sin2 - sin;
-    let bracket = (k(35.0) + k(10.0) * psi) * cos2 + k(12.0) * n + (k(7.5) + k(12.0) * psi) * m - k(1.6);
-    let ripple = k(2.5) * n * n * (k(1.0) - k(3.0) * alpha) + k(0.625) * m * m * beyond * beyond;
-    alpha * (k(1.0 - LAMBDA) * bracket - k(10.0) * cos2 + ripple)
+    let bracket = (psi * 10.0 + 35.0) * cos2 + n * 12.0 + (psi * 12.0 + 7.5) * m - 1.6;
+    let ripple = n * n * 2.5 * (alpha * 3.0).complement() + m * m * 0.625 * beyond * beyond;
+    alpha * (bracket * (1.0 - LAMBDA) - cos2 * 10.0 + ripple)
 }
 
 /// z₃/β; e^(−μ(1+x/b)) is e^(−2μ) / e^(−μ(1−x/b)), which saves one of four exponentials.
@@ -178,12 +186,11 @@ fn second<T: Algebra>(beyond: T, psi: T, sin: T, sin2: T) -> T {
 fn third<T: Algebra>(east: T, north: T, south: T, sin: T, sin2: T) -> T {
     /// e^(−2μ) for μ = 14.
     const E_2MU: f64 = 6.914_400_106_940_203e-13;
-    let k = T::from;
-    let smooth = k(3.5) * (k(1.0) - sin2) + k(3.0) * sin2 + k(0.3) * sin;
-    let at_east = (east * k(-MU / B)).exp_bounded();
-    let in_x = at_east + k(E_2MU) / at_east;
-    let in_y = (north * k(-MU / C)).exp_bounded() + (south * k(-MU / D)).exp_bounded();
-    k(LAMBDA) * smooth + k(1.05) * in_x * in_y
+    let smooth = sin2.complement() * 3.5 + sin2 * 3.0 + sin * 0.3;
+    let at_east = (east * (-MU / B)).exp_bounded();
+    let in_x = at_east + at_east.constant(E_2MU) / at_east;
+    let in_y = (north * (-MU / C)).exp_bounded() + (south * (-MU / D)).exp_bounded();
+    smooth * LAMBDA + in_x * 1.05 * in_y
 }
 
 #[cfg(test)]

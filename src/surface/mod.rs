@@ -9,7 +9,6 @@ pub mod expression;
 mod free;
 mod great_court;
 mod height;
-mod lanes;
 mod mesh;
 
 pub mod params;

@@ -2,7 +2,7 @@
 //! backtracking.
 
 use super::net::{Freedom, Net, Places};
-use crate::geometry::sparse::{Factor, Symmetric};
+use crate::geometry::sparse::{Factor, Symmetric, fill_reducing_order};
 use std::collections::VecDeque;
 
 /// Pairs that are remembered.
@@ -36,26 +36,6 @@ pub struct Bounds {
     pub rest: f64,
 }
 
-/// The factor of Jᵀ L J + 10⁻³ I: L the mesh's Laplacian with equal weights, J the derivative of positions by unknowns.
-pub fn preconditioner(net: &Net<'_>, places: &Places) -> Option<Factor> {
-    let mut matrix = Symmetric { diagonal: vec![SHIFT; net.unknowns], entries: Vec::new() };
-    for &[u, v] in &net.sheet.edges.list {
-        let (a, b) = (net.columns(places, u), net.columns(places, v));
-        for &(i, d) in a.iter().chain(&b) {
-            matrix.diagonal[i as usize] += d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-        }
-        for &(i, d) in &a {
-            for &(j, e) in &b {
-                let product = d[0] * e[0] + d[1] * e[1] + d[2] * e[2];
-                if product != 0.0 {
-                    matrix.entries.push((i, j, -product));
-                }
-            }
-        }
-    }
-    Factor::of(&matrix)
-}
-
 struct Pair {
     s: Vec<f64>,
     y: Vec<f64>,
@@ -66,13 +46,8 @@ struct Pair {
 }
 
 /// Goes down from `x`; the energy at the end, infinite if that of the start is.
-pub fn descend(
-    net: &Net<'_>,
-    energy: &mut dyn Energy,
-    factor: &Factor,
-    x: &mut Vec<f64>,
-    bounds: Bounds,
-) -> f64 {
+pub fn descend(net: &Net<'_>, energy: &mut dyn Energy, x: &mut Vec<f64>, bounds: Bounds) -> f64 {
+    let Some(factor) = net.preconditioner() else { return f64::INFINITY };
     let n = x.len();
     let inner = |a: &[f64], b: &[f64]| inner(net, a, b);
     let mut gradient = vec![0.0; n];
@@ -211,6 +186,39 @@ fn inner(net: &Net<'_>, a: &[f64], b: &[f64]) -> f64 {
 pub type Columns = Vec<(u32, [f64; 3])>;
 
 impl Net<'_> {
+    /// The factor of Jᵀ L J + 10⁻³ I where the sheet stood at first: L the mesh's Laplacian with equal weights, J the derivative of
+    /// positions by unknowns. The order is one of the vertices, which have all their unknowns together.
+    pub fn preconditioner(&self) -> Option<&Factor> {
+        self.factor.get_or_init(|| self.factorise()).as_ref()
+    }
+
+    fn factorise(&self) -> Option<Factor> {
+        let mut places = self.places();
+        let mut x = self.start();
+        if self.width == 2 {
+            self.place_in_plan(&x, &mut places);
+        } else {
+            self.place(&mut x, &mut places);
+        }
+        let mut matrix = Symmetric { diagonal: vec![SHIFT; self.unknowns], entries: Vec::new() };
+        for &[u, v] in &self.sheet.edges.list {
+            let (a, b) = (self.columns(&places, u), self.columns(&places, v));
+            for &(i, d) in a.iter().chain(&b) {
+                matrix.diagonal[i as usize] += d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+            }
+            for &(i, d) in &a {
+                for &(j, e) in &b {
+                    let product = d[0] * e[0] + d[1] * e[1] + d[2] * e[2];
+                    if product != 0.0 {
+                        matrix.entries.push((i, j, -product));
+                    }
+                }
+            }
+        }
+        let order = fill_reducing_order(self.freedom.len(), self.sheet.edges.list.iter().copied())?;
+        Factor::in_order(&matrix, order.into_iter().flat_map(|v| self.unknowns_of(v)).collect())
+    }
+
     fn columns(&self, places: &Places, v: u32) -> Columns {
         match self.freedom[v as usize] {
             Freedom::Fixed => Vec::new(),
@@ -218,6 +226,15 @@ impl Net<'_> {
                 .map(|k| (at as u32 + k as u32, std::array::from_fn(|j| f64::from(u8::from(j == k)))))
                 .collect(),
             Freedom::Slider(at) => vec![(at as u32, places.tangents[at - self.inner_unknowns])],
+        }
+    }
+
+    /// The numbers of a vertex's unknowns.
+    fn unknowns_of(&self, v: u32) -> std::ops::Range<u32> {
+        match self.freedom[v as usize] {
+            Freedom::Fixed => 0..0,
+            Freedom::Inner(at) => at as u32..(at + self.width) as u32,
+            Freedom::Slider(at) => at as u32..at as u32 + 1,
         }
     }
 

@@ -2,7 +2,9 @@
 
 use super::net::{Link, Net, Places};
 use crate::geometry::vector::{Vec3, cross, dot, sub};
-use crate::simd::wide;
+use crate::simd::{Vector, with_vectors};
+use pulp::{Simd, WithSimd};
+use std::ops::Mul;
 
 /// What the energy is to reach, in local units, and how much each part of it weighs.
 #[derive(Clone, Copy, Debug)]
@@ -23,56 +25,50 @@ pub struct Weights {
     pub gap: f64,
 }
 
-/// Panels or edges that are worked on at once.
-const LANES: usize = 8;
-
-/// One number of each panel or edge of a batch.
-type Lanes = [f64; LANES];
-
-/// Three coordinates of each.
-type Lanes3 = [Lanes; 3];
-
-/// x to a whole power, by squaring; a constant power leaves multiplications only.
+/// x to a whole power n ≥ 1, by squaring; a constant power leaves multiplications only.
 #[inline(always)]
-fn power(mut x: f64, mut n: u32) -> f64 {
-    let mut result = 1.0;
-    while n > 0 {
-        if n & 1 == 1 {
-            result *= x;
-        }
+fn power<T: Copy + Mul<Output = T>>(mut x: T, mut n: u32) -> T {
+    while n & 1 == 0 {
+        x = x * x;
         n >>= 1;
-        if n > 0 {
-            x *= x;
+    }
+    let mut result = x;
+    while n > 1 {
+        x = x * x;
+        n >>= 1;
+        if n & 1 == 1 {
+            result = result * x;
         }
     }
     result
 }
 
-/// What is summed over, gathered once a mesh: quads, triangles and their corners that count, edges.
+/// What is summed over, gathered once a mesh: quads, corners of triangles that count, edges.
 pub struct Terms {
-    quads: Vec<[u32; 4]>,
-    /// For each quad, 1 for a corner that counts, 0 for one that does not.
-    counts: Vec<[f64; 4]>,
+    quads: Vec<Quad>,
     /// `[corner, next, previous]` of triangles.
     corners: Vec<[u32; 3]>,
     edges: Vec<[u32; 2]>,
+}
+
+/// A panel with four corners, each with 1 if it counts, 0 if not.
+#[derive(Clone, Copy)]
+struct Quad {
+    vertices: [u32; 4],
+    counts: [f64; 4],
 }
 
 impl Terms {
     /// The terms of a net.
     pub fn of(net: &Net<'_>) -> Self {
         let counts = |v: u32| !net.is_silent[v as usize];
-        let is_triangle = |quad: &&[u32; 4]| quad[2] == quad[3];
-        let quads: Vec<[u32; 4]> = net.sheet.quads.iter().filter(|q| !is_triangle(q)).copied().collect();
-        let corners = net
-            .sheet
-            .quads
-            .iter()
-            .filter(is_triangle)
-            .flat_map(|&[a, b, c, _]| [[a, b, c], [b, c, a], [c, a, b]]);
+        let (triangles, quads): (Vec<[u32; 4]>, Vec<[u32; 4]>) =
+            net.sheet.quads.iter().partition(|quad| quad[2] == quad[3]);
+        let quad =
+            |vertices: [u32; 4]| Quad { vertices, counts: vertices.map(|v| f64::from(u8::from(counts(v)))) };
+        let corners = triangles.into_iter().flat_map(|[a, b, c, _]| [[a, b, c], [b, c, a], [c, a, b]]);
         Self {
-            counts: quads.iter().map(|quad| quad.map(|v| f64::from(u8::from(counts(v))))).collect(),
-            quads,
+            quads: quads.into_iter().map(quad).collect(),
             corners: corners.filter(|corner| counts(corner[0])).collect(),
             edges: net.sheet.edges.list.clone(),
         }
@@ -80,141 +76,150 @@ impl Terms {
 
     /// Whether some corner turns over in plan: cheap, and true of most steps that are too long.
     pub fn is_folded(&self, points: &[Vec3]) -> bool {
-        let turn = |o: u32, u: u32, v: u32| {
+        let is_over = |o: u32, u: u32, v: u32| {
             let (o, u, v) = (points[o as usize], points[u as usize], points[v as usize]);
-            (u[0] - o[0]) * (v[1] - o[1]) - (u[1] - o[1]) * (v[0] - o[0])
+            let turn = (u[0] - o[0]) * (v[1] - o[1]) - (u[1] - o[1]) * (v[0] - o[0]);
+            turn.is_nan() || turn <= 0.0
         };
-        let quad = |(quad, counts): (&[u32; 4], &[f64; 4])| {
-            (0..4).any(|i| {
-                let turn = turn(quad[i], quad[(i + 1) % 4], quad[(i + 3) % 4]);
-                counts[i] > 0.0 && (turn.is_nan() || turn <= 0.0)
-            })
+        let is_quad_over = |quad: &Quad| {
+            let v = quad.vertices;
+            (0..4).any(|i| quad.counts[i] > 0.0 && is_over(v[i], v[(i + 1) % 4], v[(i + 3) % 4]))
         };
-        self.quads.iter().zip(&self.counts).any(quad)
-            || self.corners.iter().any(|&[o, u, v]| {
-                let turn = turn(o, u, v);
-                turn.is_nan() || turn <= 0.0
-            })
+        self.quads.iter().any(is_quad_over) || self.corners.iter().any(|&[o, u, v]| is_over(o, u, v))
     }
 
     /// The energy of angles and lengths; infinite where a corner turns over. `by_point` is its gradient.
     pub fn energy(&self, places: &Places, weights: &Weights, by_point: &mut [Vec3]) -> f64 {
-        wide(
-            #[inline(always)]
-            || match weights.half_power {
-                8 => self.powered::<8>(places, weights, by_point),
-                _ => self.powered::<16>(places, weights, by_point),
-            },
-        )
+        by_point.fill([0.0; 3]);
+        match weights.half_power {
+            8 => with_vectors(Sum::<8> { terms: self, places, weights, by_point }),
+            _ => with_vectors(Sum::<16> { terms: self, places, weights, by_point }),
+        }
     }
+}
+
+/// The sum over all terms with barriers of half the power `P`.
+struct Sum<'a, const P: u32> {
+    terms: &'a Terms,
+    places: &'a Places,
+    weights: &'a Weights,
+    by_point: &'a mut [Vec3],
+}
+
+impl<const P: u32> WithSimd for Sum<'_, P> {
+    type Output = f64;
 
     #[inline(always)]
-    fn powered<const P: u32>(&self, places: &Places, weights: &Weights, by_point: &mut [Vec3]) -> f64 {
-        by_point.fill([0.0; 3]);
+    fn with_simd<S: Simd>(self, simd: S) -> f64 {
+        let Self { terms, places, weights, by_point } = self;
+        let lanes = Vector::<S>::LANES;
         let mut sum = 0.0;
-        for (quads, counts) in self.quads.chunks(LANES).zip(self.counts.chunks(LANES)) {
-            let energy = quad_batch::<P>(quads, counts, places, weights, by_point);
-            if !energy.is_finite() {
+        for quads in terms.quads.chunks(lanes) {
+            let Some(more) = quad_batch::<P, S>(simd, quads, places, weights, by_point) else {
                 return f64::INFINITY;
-            }
-            sum += energy;
+            };
+            // One after the other, so that the sum does not depend on the number of lanes.
+            more.numbers()[..quads.len()].iter().for_each(|energy| sum += energy);
         }
-        for &corner in &self.corners {
+        for &corner in &terms.corners {
             sum += triangle_corner::<P>(corner, places, weights, by_point);
         }
-        for edges in self.edges.chunks(LANES) {
-            sum += edge_batch::<P>(edges, &places.points, weights, by_point);
+        for edges in terms.edges.chunks(lanes) {
+            let more = edge_batch::<P, S>(simd, edges, &places.points, weights, by_point);
+            more.numbers()[..edges.len()].iter().for_each(|energy| sum += energy);
         }
         if sum.is_finite() { sum } else { f64::INFINITY }
     }
 }
 
-#[inline(always)]
-fn lanes(f: impl Fn(usize) -> f64) -> Lanes {
-    std::array::from_fn(f)
-}
+/// Three coordinates of each lane.
+type Vector3<S> = [Vector<S>; 3];
 
 #[inline(always)]
-fn dot_lanes(a: &Lanes3, b: &Lanes3) -> Lanes {
-    lanes(|l| (a[0][l] * b[0][l] + a[1][l] * b[1][l]) + a[2][l] * b[2][l])
+fn dot_lanes<S: Simd>(a: &Vector3<S>, b: &Vector3<S>) -> Vector<S> {
+    (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]
 }
 
-/// c w_A (Q − 1) + (sin² · Q)^p/2 of the corners of up to [`LANES`] quads, Q = |e|²|f|² / |e × f|² with the corner's arms e and f.
+/// c w_A (Q − 1) + (sin² · Q)^p/2 of the corners of a quad in each lane, Q = |e|²|f|² / |e × f|² with the corner's arms e and f; `None`
+/// where a corner that counts turns over.
 #[inline(always)]
-fn quad_batch<const P: u32>(
-    quads: &[[u32; 4]],
-    counts: &[[f64; 4]],
+fn quad_batch<const P: u32, S: Simd>(
+    simd: S,
+    quads: &[Quad],
     places: &Places,
     weights: &Weights,
     by_point: &mut [Vec3],
-) -> f64 {
-    // A lane without a quad repeats the first with no corner that counts.
-    let quad = |l: usize| quads.get(l).unwrap_or(&quads[0]);
-    let count: [Lanes; 4] = std::array::from_fn(|k| lanes(|l| counts.get(l).map_or(0.0, |c| c[k])));
-    let points: [Lanes3; 4] = std::array::from_fn(|k| {
-        let at: [Vec3; LANES] = std::array::from_fn(|l| places.points[quad(l)[k] as usize]);
-        std::array::from_fn(|c| lanes(|l| at[l][c]))
+) -> Option<Vector<S>> {
+    // A lane without a quad repeats the last.
+    let quad = |l: usize| &quads[l.min(quads.len() - 1)];
+    let zero = Vector::splat(simd, 0.0);
+    let points: [Vector3<S>; 4] = std::array::from_fn(|k| {
+        std::array::from_fn(|c| Vector::of(simd, |l| places.points[quad(l).vertices[k] as usize][c]))
     });
     // Side k runs from vertex k to the next; corner k has the arms side k and minus side k − 1.
-    let sides: [Lanes3; 4] = std::array::from_fn(|k| {
-        std::array::from_fn(|c| lanes(|l| points[(k + 1) % 4][c][l] - points[k][c][l]))
-    });
-    let squares: [Lanes; 4] = std::array::from_fn(|k| dot_lanes(&sides[k], &sides[k]));
-    let mut by_side = [[[0.0; LANES]; 3]; 4];
-    let mut energy = [0.0; LANES];
-    let mut open = [true; LANES];
+    let sides: [Vector3<S>; 4] =
+        std::array::from_fn(|k| std::array::from_fn(|c| points[(k + 1) % 4][c] - points[k][c]));
+    let squares: [Vector<S>; 4] = std::array::from_fn(|k| dot_lanes(&sides[k], &sides[k]));
+    let mut by_side = [[zero; 3]; 4];
+    let mut energy = zero;
+    let mut turned = zero;
     for k in 0..4 {
         let before = (k + 3) % 4;
         let (e, f) = (&sides[k], &sides[before]);
-        let facing = facing(e, f, places, |l| quad(l)[k]);
-        let (ee, ff) = (&squares[k], &squares[before]);
-        let ef = dot_lanes(e, f).map(|d| -d);
-        let area = lanes(|l| ee[l] * ff[l] - ef[l] * ef[l]);
-        for l in 0..LANES {
-            let is_open = facing[l] > 0.0 && area[l] > 0.0;
-            open[l] &= is_open || count[k][l] == 0.0;
-            // Any number that is not 0 where nothing counts.
-            let inverse = 1.0 / if is_open { area[l] } else { 1.0 };
-            let q = ee[l] * ff[l] * inverse;
-            let ratio = weights.sin_squared * q;
-            let steep = power(ratio, P - 1);
-            energy[l] += count[k][l] * (weights.angle * (q - 1.0) + steep * ratio);
-            let by_q = count[k][l]
-                * (weights.angle + f64::from(P) * weights.sin_squared * steep)
-                * (inverse * inverse);
-            let by_ee = -2.0 * by_q * ff[l] * ef[l] * ef[l];
-            let by_ff = -2.0 * by_q * ee[l] * ef[l] * ef[l];
-            let by_ef = 2.0 * by_q * ee[l] * ff[l] * ef[l];
-            for c in 0..3 {
-                by_side[k][c][l] += by_ee * e[c][l] - by_ef * f[c][l];
-                by_side[before][c][l] += by_ff * f[c][l] - by_ef * e[c][l];
-            }
+        let (ee, ff) = (squares[k], squares[before]);
+        let count = Vector::of(simd, |l| quad(l).counts[k]);
+        let ef = -dot_lanes(e, f);
+        let area = ee * ff - ef * ef;
+        let facing = facing(e, f, places, |l| quad(l).vertices[k]);
+        let open = facing.where_positive(area, zero);
+        turned = turned + open.where_positive(zero, count);
+        // Any number that is not 0 where nothing counts.
+        let inverse = open.constant(1.0) / open.where_positive(open, open.constant(1.0));
+        let q = ee * ff * inverse;
+        let ratio = q * weights.sin_squared;
+        let steep = power(ratio, P - 1);
+        energy = energy + count * ((q - 1.0) * weights.angle + steep * ratio);
+        let by_q = count
+            * (steep * (f64::from(P) * weights.sin_squared) + weights.angle)
+            * (inverse * inverse)
+            * 2.0;
+        let by_ef = by_q * ee * ff * ef;
+        let by_ee = by_q * ff * ef * ef;
+        let by_ff = by_q * ee * ef * ef;
+        for c in 0..3 {
+            by_side[k][c] = by_side[k][c] - (by_ee * e[c] + by_ef * f[c]);
+            by_side[before][c] = by_side[before][c] - (by_ff * f[c] + by_ef * e[c]);
         }
     }
-    if open.contains(&false) {
-        return f64::INFINITY;
+    if turned.numbers()[..quads.len()].iter().any(|&corners| corners > 0.0) {
+        return None;
     }
     for (l, quad) in quads.iter().enumerate() {
-        for k in 0..4 {
-            let g = &mut by_point[quad[k] as usize];
+        for (k, &v) in quad.vertices.iter().enumerate() {
+            let g = &mut by_point[v as usize];
             for c in 0..3 {
-                g[c] += by_side[(k + 3) % 4][c][l] - by_side[k][c][l];
+                g[c] += by_side[(k + 3) % 4][c].numbers()[l] - by_side[k][c].numbers()[l];
             }
         }
     }
-    energy[..quads.len()].iter().sum()
+    Some(energy)
 }
 
 /// How far the corner between side `e` and the side `f` before it is from turning over: in plan, or against the surface normal.
 #[inline(always)]
-fn facing(e: &Lanes3, f: &Lanes3, places: &Places, corner: impl Fn(usize) -> u32) -> Lanes {
+fn facing<S: Simd>(
+    e: &Vector3<S>,
+    f: &Vector3<S>,
+    places: &Places,
+    corner: impl Fn(usize) -> u32,
+) -> Vector<S> {
+    let up = f[0] * e[1] - f[1] * e[0];
     if places.normals.is_empty() {
-        return lanes(|l| f[0][l] * e[1][l] - f[1][l] * e[0][l]);
+        return up;
     }
-    lanes(|l| {
-        let at = |a: &Lanes3| [a[0][l], a[1][l], a[2][l]];
-        dot(cross(at(f), at(e)), places.normals[corner(l) as usize])
-    })
+    let across = [f[1] * e[2] - f[2] * e[1], f[2] * e[0] - f[0] * e[2], up];
+    let normal = std::array::from_fn(|c| up.lane_by_lane(|l| places.normals[corner(l) as usize][c]));
+    dot_lanes(&across, &normal)
 }
 
 /// The same of one corner of a triangle, whose angle weighs half.
@@ -255,43 +260,35 @@ fn triangle_corner<const P: u32>(
     angle * (q - 1.0) + steep * ratio
 }
 
-/// w_L (x + 1/x − 2) + (l / l_max)^p + (l_min / l)^p, x = (l/ℓ)², of up to [`LANES`] edges.
+/// w_L (x + 1/x − 2) + (l / l_max)^p + (l_min / l)^p, x = (l/ℓ)², of an edge in each lane.
 #[inline(always)]
-fn edge_batch<const P: u32>(
+fn edge_batch<const P: u32, S: Simd>(
+    simd: S,
     edges: &[[u32; 2]],
     points: &[Vec3],
     weights: &Weights,
     by_point: &mut [Vec3],
-) -> f64 {
-    let edge = |l: usize| edges.get(l).unwrap_or(&edges[0]);
-    let ways: [Vec3; LANES] = std::array::from_fn(|l| {
-        let [u, v] = edge(l).map(|v| points[v as usize]);
-        sub(v, u)
-    });
-    let d: Lanes3 = std::array::from_fn(|c| lanes(|l| ways[l][c]));
+) -> Vector<S> {
+    let end = |l: usize, end: usize| points[edges[l.min(edges.len() - 1)][end] as usize];
+    let d: Vector3<S> = std::array::from_fn(|c| Vector::of(simd, |l| end(l, 1)[c] - end(l, 0)[c]));
     let square = dot_lanes(&d, &d);
     let rest = weights.rest * weights.rest;
-    let (to_rest, to_largest) = (1.0 / rest, 1.0 / (weights.range[1] * weights.range[1]));
     let least = weights.range[0] * weights.range[0];
-    let mut energy = [0.0; LANES];
-    let mut by_square = [0.0; LANES];
-    for l in 0..LANES {
-        let inverse = 1.0 / square[l];
-        let long = power(square[l] * to_largest, P);
-        let short = power(least * inverse, P);
-        energy[l] = weights.length * (square[l] * to_rest + rest * inverse - 2.0) + (long + short);
-        by_square[l] = 2.0
-            * (weights.length * (to_rest - rest * inverse * inverse)
-                + f64::from(P) * (long - short) * inverse);
-    }
+    let inverse = square.constant(1.0) / square;
+    let long = power(square * (1.0 / (weights.range[1] * weights.range[1])), P);
+    let short = power(inverse * least, P);
+    let by_square = ((-(inverse * inverse * rest) + 1.0 / rest) * weights.length
+        + (long - short) * inverse * f64::from(P))
+        * 2.0;
+    let by_way = d.map(|d| by_square * d);
     for (l, &[u, v]) in edges.iter().enumerate() {
         for c in 0..3 {
-            let g = by_square[l] * d[c][l];
+            let g = by_way[c].numbers()[l];
             by_point[v as usize][c] += g;
             by_point[u as usize][c] -= g;
         }
     }
-    energy[..edges.len()].iter().sum()
+    (square * (1.0 / rest) + inverse * rest - 2.0) * weights.length + (long + short)
 }
 
 /// The energy of boundary edges on curves, (⅜ s (s − c) / gap²)^(p/2) with arc s and chord c in plan; adds its gradient by unknown.

@@ -4,6 +4,7 @@
 use crate::domain::{BoundaryLoop, Domain};
 use crate::geometry::vector::{Vec3, scale, sub};
 use crate::surface::{Surface, SurfaceKind};
+use std::cell::OnceCell;
 
 /// The surface and the boundary curves of a domain in units of the target length.
 pub struct Ground<'a> {
@@ -119,6 +120,8 @@ pub struct Rail<'a> {
     unit: f64,
     /// Its plan length, local units.
     pub length: f64,
+    /// Curvature all along it, once it was asked for.
+    curvature: OnceCell<Vec<f64>>,
 }
 
 /// A point of a rail and the unit tangent there, counter-clockwise.
@@ -132,7 +135,7 @@ pub struct Foot {
 
 impl<'a> Rail<'a> {
     fn new(curve: &'a BoundaryLoop, flat: &'a BoundaryLoop, middle: [f64; 2], unit: f64) -> Self {
-        Self { length: flat.length() / unit, flat, curve, middle, unit }
+        Self { length: flat.length() / unit, flat, curve, middle, unit, curvature: OnceCell::new() }
     }
 
     /// The point at a plan length, modulo the loop's.
@@ -152,6 +155,11 @@ impl<'a> Rail<'a> {
     pub fn surface_station(&self, q: f64) -> f64 {
         let turns = (q / self.length).floor();
         self.curve.arc_length(self.flat.parameter(q * self.unit)) + turns * self.curve.length()
+    }
+
+    /// Its curvature from its start on as `measure` finds it, measured once.
+    pub fn curvature(&self, measure: impl FnOnce(&Self, [f64; 2]) -> Vec<f64>) -> &[f64] {
+        self.curvature.get_or_init(|| measure(self, [0.0, self.length]))
     }
 
     /// Whether the stretch between two plan lengths is one straight line.

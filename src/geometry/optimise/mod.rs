@@ -25,12 +25,11 @@ use super::density::{self, Fineness};
 use super::develop::Shaped;
 use super::limits::{self, Extremes, Limits};
 use super::rejection::Rejection;
-use super::sparse::Factor;
 use super::untangle::untangle;
 use super::vector::Vec3;
 use crate::domain::Domain;
 use crate::surface::Surface;
-use descent::{Bounds, Energy, descend, preconditioner};
+use descent::{Bounds, Energy, descend};
 use energy::{Terms, Weights};
 use net::{Net, Places};
 use rows::Rungs;
@@ -228,8 +227,8 @@ impl<'a> Optimiser<'a> {
 
     /// The sheet with other rows, through Q1 to Q3 or as far as the limits ask.
     fn try_rows(&self, from: &Sheet, rows: &[u32]) -> Tried {
-        let mut sheet = self.untangled(resample::resample(self.task.coarse, self.ground, from, rows));
-        let mut run = Run::new(self.ground, &sheet);
+        let mut sheet = resample::resample(self.task.coarse, self.ground, from, rows);
+        let mut run = self.run_on(&mut sheet);
         let mut last = self.after_stage(&mut run, &FINE[0]);
         for (stage, hopeless) in FINE[1..].iter().zip(HOPELESS) {
             if last.is_good || last.energy > hopeless {
@@ -281,22 +280,30 @@ impl<'a> Optimiser<'a> {
     }
 
     /// Untangled in plan where needed, then one descent; whether nothing is folded.
-    fn descend(&self, sheet: Sheet, stage: &Stage) -> (Sheet, bool) {
-        let mut sheet = self.untangled(sheet);
-        let mut run = Run::new(self.ground, &sheet);
-        let energy = run.stage(stage, self.task.aims, self.coarseness(&sheet));
+    fn descend(&self, mut sheet: Sheet, stage: &Stage) -> (Sheet, bool) {
+        let coarseness = self.coarseness(&sheet);
+        let mut run = self.run_on(&mut sheet);
+        let energy = run.stage(stage, self.task.aims, coarseness);
         let state = run.net.state(run.x);
         sheet.set(state);
         (sheet, energy.is_finite())
     }
 
-    fn untangled(&self, mut sheet: Sheet) -> Sheet {
-        let net = Net::new(self.ground, &sheet, 2, false);
-        if let Some(x) = untangle(&net, REST * self.coarseness(&sheet)) {
-            let state = net.state(x);
+    /// A sheet's unknowns, untangled in plan where needed.
+    fn run_on<'s>(&'s self, sheet: &'s mut Sheet) -> Run<'s> {
+        let rest = REST * self.coarseness(sheet);
+        if self.ground.is_height() {
+            let net = Net::new(self.ground, sheet, 2, false);
+            let x = untangle(&net, rest).unwrap_or_else(|| net.start());
+            return Run::new(net, x);
+        }
+        let net = Net::new(self.ground, sheet, 2, false);
+        if let Some(state) = untangle(&net, rest).map(|x| net.state(x)) {
             sheet.set(state);
         }
-        sheet
+        let net = Net::new(self.ground, sheet, 3, false);
+        let x = net.start();
+        Run::new(net, x)
     }
 
     /// Mean edge length of a sheet in target lengths, √(N/Nc).
@@ -312,31 +319,26 @@ impl<'a> Optimiser<'a> {
     }
 }
 
-/// A sheet on its way down: its unknowns and the factor of its Laplacian.
+/// A sheet on its way down.
 struct Run<'a> {
     net: Net<'a>,
     x: Vec<f64>,
-    factor: Option<Factor>,
     terms: Terms,
     places: Places,
     by_point: Vec<Vec3>,
 }
 
 impl<'a> Run<'a> {
-    fn new(ground: &'a Ground<'a>, sheet: &'a Sheet) -> Self {
-        let net = Net::new(ground, sheet, if ground.is_height() { 2 } else { 3 }, false);
-        let mut x = net.start();
+    fn new(net: Net<'a>, mut x: Vec<f64>) -> Self {
         let mut places = net.places();
         net.place(&mut x, &mut places);
-        let factor = preconditioner(&net, &places);
         let by_point = vec![[0.0; 3]; places.points.len()];
-        Self { terms: Terms::of(&net), net, x, factor, places, by_point }
+        Self { terms: Terms::of(&net), net, x, places, by_point }
     }
 
     /// One descent; the energy at its end.
     fn stage(&mut self, stage: &Stage, limits: &Limits, coarseness: f64) -> f64 {
         let weights = stage.weights(limits, coarseness);
-        let Some(factor) = &self.factor else { return f64::INFINITY };
         let bounds = Bounds { iterations: stage.iterations, tolerance: stage.tolerance, rest: weights.rest };
         let mut energy = Shape {
             net: &self.net,
@@ -345,7 +347,7 @@ impl<'a> Run<'a> {
             places: &mut self.places,
             by_point: &mut self.by_point,
         };
-        descend(&self.net, &mut energy, factor, &mut self.x, bounds)
+        descend(&self.net, &mut energy, &mut self.x, bounds)
     }
 }
 
@@ -418,7 +420,9 @@ mod tests {
         let placed = place::place(domain, surface, &dense, &edges, &loops, Folds::Unfold).unwrap();
         let points = placed.positions.iter().map(|&p| ground.local(p)).collect();
         let sheet = Sheet::placed(&ground, dense, points, &loops, &placed.along);
-        let mut run = Run::new(&ground, &sheet);
+        let net = Net::new(&ground, &sheet, if ground.is_height() { 2 } else { 3 }, false);
+        let x = net.start();
+        let mut run = Run::new(net, x);
         let weights = stage.weights(&limits, 1.0);
         let mut shape = Shape {
             net: &run.net,

@@ -3,7 +3,9 @@
 
 use super::ground::{Foot, Ground};
 use super::sheet::{NO_CORNER, Sheet, State};
+use crate::geometry::sparse::Factor;
 use crate::geometry::vector::{Vec3, add, dot, scale};
+use std::cell::OnceCell;
 
 /// Normal of a corner that was not asked for yet.
 const UNKNOWN: Vec3 = [0.0; 3];
@@ -27,6 +29,8 @@ pub struct Slider {
     range: [f64; 2],
     /// The rail at those ends, to go on straight beyond them.
     ends: [Foot; 2],
+    /// Whether it is straight between them.
+    is_straight: bool,
 }
 
 impl Slider {
@@ -38,7 +42,8 @@ impl Slider {
             Foot { tangent: rail.at(q + inward * rail.length).tangent, ..rail.at(q) }
         };
         let ends = [end(range[0], 1e-9), end(range[1], -1e-9)];
-        Self { vertex, label, range, ends }
+        let is_straight = range[0].is_finite() && rail.is_straight(range[0], range[1]);
+        Self { vertex, label, range, ends, is_straight }
     }
 }
 
@@ -77,6 +82,8 @@ pub struct Net<'a> {
     near_boundary: Vec<u32>,
     /// Smooth loops that inner vertices may be beyond.
     smooth_loops: Vec<usize>,
+    /// What descents begin from, once one was asked for.
+    pub(super) factor: OnceCell<Option<Factor>>,
 }
 
 /// Where all vertices are for given unknowns.
@@ -125,6 +132,7 @@ impl<'a> Net<'a> {
             sheet,
             freedom,
             sliders,
+            factor: OnceCell::new(),
         }
     }
 
@@ -228,7 +236,7 @@ impl<'a> Net<'a> {
                 Foot { point: [point[0] + more * tangent[0], point[1] + more * tangent[1]], tangent }
             };
             let foot = match q {
-                q if q < slider.range[0] => beyond(0),
+                q if q < slider.range[0] || slider.is_straight => beyond(0),
                 q if q > slider.range[1] => beyond(1),
                 q => rail.at(q),
             };

@@ -8,6 +8,7 @@ use crate::geometry::density::{Bounds, SideRows};
 use crate::geometry::limits::Limits;
 use crate::geometry::topology::Available;
 use crate::geometry::vector::distance;
+use std::borrow::Cow;
 use std::f64::consts::TAU;
 
 /// Points of a side at which its curvature is measured.
@@ -200,25 +201,30 @@ fn need(rail: &Rail<'_>, [from, to]: [f64; 2], limits: &Limits, coarseness: f64)
     if !is_closed && rail.is_straight(from, to) {
         return (rail.surface_length(from, to) * by_length - 1e-9).max(0.0);
     }
+    let is_whole = from == 0.0 && to == rail.length;
+    let curvature =
+        if is_whole { Cow::from(rail.curvature(curvature)) } else { Cow::from(curvature(rail, [from, to])) };
+    let stretch = rail.surface_length(from, to) / (to - from);
+    let rows = |kappa: &f64| (stretch * by_length).max((kappa * by_gap).sqrt());
+    let sum: f64 = curvature.iter().map(rows).sum();
+    (sum * (to - from) / SAMPLES as f64 - 1e-9).max(0.0)
+}
+
+/// Curvature at points that divide a stretch of a rail evenly; near the ends of one that is not closed, that a little further in.
+fn curvature(rail: &Rail<'_>, [from, to]: [f64; 2]) -> Vec<f64> {
     let step = (to - from) / SAMPLES as f64;
     let window = ((WINDOW / step).round() as usize).clamp(4, SAMPLES / 4);
-    let direction = |i: usize, j: usize| {
-        let (a, b) = (rail.at(from + step * i as f64).point, rail.at(from + step * j as f64).point);
-        libm::atan2(b[1] - a[1], b[0] - a[0])
-    };
+    let points: Vec<[f64; 2]> =
+        (0..=SAMPLES + 2 * window).map(|i| rail.at(from + step * i as f64).point).collect();
+    let directions: Vec<f64> =
+        points.iter().zip(&points[window..]).map(|(a, b)| libm::atan2(b[1] - a[1], b[0] - a[0])).collect();
+    let is_closed = to - from > rail.length * (1.0 - 1e-9);
     let last = if is_closed { SAMPLES } else { SAMPLES - 2 * window };
-    let curvature: Vec<f64> = (0..last)
+    (0..SAMPLES)
         .map(|i| {
-            let turn = direction(i + window, i + 2 * window) - direction(i, i + window);
+            let at = i.saturating_sub(window).min(last - 1);
+            let turn = directions[at + window] - directions[at];
             (turn - TAU * libm::round(turn / TAU)).abs() / (window as f64 * step)
         })
-        .collect();
-    let stretch = rail.surface_length(from, to) / (to - from);
-    let sum: f64 = (0..SAMPLES)
-        .map(|i| {
-            let kappa = curvature[i.saturating_sub(window).min(last - 1)];
-            (stretch * by_length).max((kappa * by_gap).sqrt())
-        })
-        .sum();
-    (sum * step - 1e-9).max(0.0)
+        .collect()
 }

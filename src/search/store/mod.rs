@@ -5,7 +5,7 @@
 //! * `checkpoint.json`: the state after the last finished generation: population, rows of `generations.csv`, the
 //!   number of evaluated designs, and the resolved config. Versioned, with a checksum, replaced atomically.
 //! * `checkpoint.previous.json`: the one before, in case the newest is damaged.
-//! * `evaluations.jsonl`: a journal of every evaluation, appended to as each is finished. It holds the evaluations
+//! * `evaluations.journal`: a journal of every evaluation, appended to as each is finished. It holds the evaluations
 //!   since the checkpoint, and also all those before: to write these into every checkpoint anew would cost O(n²) over
 //!   a run. One line is a checksum and a JSON object, so a torn or damaged line is noticed and left out.
 //!
@@ -29,7 +29,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use self::checkpoint::Checkpoint;
+use self::checkpoint::{Checkpoint, Unusable};
 use self::entry::Entry;
 use self::journal::Journal;
 use super::breeding::Child;
@@ -38,7 +38,7 @@ use super::problem::Evaluation;
 use super::state::{Indexed, Settings, State};
 use crate::mesh::canonical::Code;
 use crate::output::atomic;
-use crate::output::folder::{CHECKPOINT, CHECKPOINT_PREVIOUS, JOURNAL};
+use crate::output::folder::{self, CHECKPOINT, CHECKPOINT_PREVIOUS, JOURNAL};
 
 pub use compare::differing_keys;
 pub(crate) use entry::text;
@@ -91,21 +91,16 @@ impl Store {
     /// Goes on in `folder`; starts anew where there is nothing to go on from.
     ///
     /// # Errors
-    /// If files cannot be read or written, or `config` differs from the recorded one in anything but threads and the
-    /// stopping limits.
+    /// If files cannot be read or written, a later program wrote them, or `config` differs from the recorded one in
+    /// anything but threads and the stopping limits.
     pub fn resume(folder: &Path, config: Value) -> Result<Self, StoreError> {
-        let Checkpoints { used, files, notices } = checkpoints(folder);
+        let Checkpoints { used, files, notices } = checkpoints(folder)?;
         let mut found = Found { checkpoints: used, notices, checkpoint_files: files, ..Found::default() };
         let recorded = found.checkpoints.first().map(|checkpoint| checkpoint.config.clone());
         // Compared before the journal is opened for writing: a refused resume leaves everything as it was.
-        let left = journal::read(&folder.join(JOURNAL))?;
-        if let Some(recorded) = recorded.as_ref().or(left.config.as_ref()) {
-            let keys = differing_keys(recorded, &config);
-            if !keys.is_empty() {
-                return Err(StoreError::OtherConfig { folder: folder.to_path_buf(), keys });
-            }
-        }
-        let journal = Journal::resume(&folder.join(JOURNAL), &config, &left)?;
+        let (path, left) = journalled(folder)?;
+        refuse_other(folder, recorded.as_ref().or(left.config.as_ref()), &config)?;
+        let journal = Journal::resume(&path, &config, &left)?;
         if left.damaged > 0 {
             found.notices.push(format!("{JOURNAL}: damaged lines left out: {}", left.damaged));
         }
@@ -113,15 +108,23 @@ impl Store {
         Ok(Self { folder: folder.to_path_buf(), config, journal, found, worked: false })
     }
 
+    /// Whether a run in `folder` can be gone on with; nothing is opened for writing.
+    ///
+    /// # Errors
+    /// As [`Store::resume`].
+    pub fn check(folder: &Path, config: &Value) -> Result<(), StoreError> {
+        refuse_other(folder, Self::recorded_config(folder)?.as_ref(), config)
+    }
+
     /// The config recorded in `folder`, if a run was begun there: the seed that was drawn is in it.
     ///
     /// # Errors
-    /// If a file exists and cannot be read.
+    /// If a file exists and cannot be read, or a later program wrote it.
     pub fn recorded_config(folder: &Path) -> Result<Option<Value>, StoreError> {
-        if let Some(checkpoint) = checkpoints(folder).used.into_iter().next() {
+        if let Some(checkpoint) = checkpoints(folder)?.used.into_iter().next() {
             return Ok(Some(checkpoint.config));
         }
-        Ok(journal::read(&folder.join(JOURNAL))?.config)
+        Ok(journalled(folder)?.1.config)
     }
 
     /// Whether anything was evaluated, or a generation finished, since the files were opened.
@@ -189,6 +192,15 @@ impl Store {
     }
 }
 
+/// Refuses a config that differs from the recorded one in what may not differ.
+fn refuse_other(folder: &Path, recorded: Option<&Value>, config: &Value) -> Result<(), StoreError> {
+    let keys = recorded.map(|recorded| differing_keys(recorded, config)).unwrap_or_default();
+    match keys.is_empty() {
+        true => Ok(()),
+        false => Err(StoreError::OtherConfig { folder: folder.to_path_buf(), keys }),
+    }
+}
+
 /// The checkpoints of a folder, the newest first.
 struct Checkpoints {
     used: Vec<Checkpoint>,
@@ -197,17 +209,29 @@ struct Checkpoints {
     notices: Vec<String>,
 }
 
-fn checkpoints(folder: &Path) -> Checkpoints {
+fn checkpoints(folder: &Path) -> Result<Checkpoints, StoreError> {
     let mut found = Checkpoints { used: Vec::new(), files: 0, notices: Vec::new() };
     for name in [CHECKPOINT, CHECKPOINT_PREVIOUS] {
-        found.files += usize::from(folder.join(name).exists());
-        match checkpoint::read(&folder.join(name)) {
+        let path = folder.join(name);
+        found.files += usize::from(path.exists());
+        match checkpoint::read(&path) {
             Ok(Some(checkpoint)) => found.used.push(checkpoint),
             Ok(None) => {}
-            Err(damage) => found.notices.push(format!("{name} is not used: {damage}")),
+            Err(Unusable::Damaged(how)) => found.notices.push(format!("{name} is not used: {how}")),
+            Err(Unusable::Newer(found)) => return Err(StoreError::Newer { path, found }),
         }
     }
-    found
+    Ok(found)
+}
+
+/// The journal of a folder, and what is in it.
+fn journalled(folder: &Path) -> Result<(PathBuf, journal::Left), StoreError> {
+    let path = folder::journal(folder);
+    let left = journal::read(&path)?;
+    match left.newer {
+        Some(found) => Err(StoreError::Newer { path, found }),
+        None => Ok((path, left)),
+    }
 }
 
 /// What a run without a checkpoint to go on from does.

@@ -5,9 +5,8 @@ use std::path::Path;
 use super::super::outcome::{sorted_front, total};
 use super::super::record::{Breeding, EvaluatedRow, GenerationRow};
 use super::entry::Entry;
-use super::{StoreError, checkpoints, journal};
+use super::{StoreError, checkpoints, journalled};
 use crate::evolve::NonDominated;
-use crate::output::folder::JOURNAL;
 
 /// A run as it stood after a finished generation.
 #[derive(Clone, PartialEq, Debug)]
@@ -26,11 +25,11 @@ impl Snapshot {
     /// The newest finished generation of the run in `folder` of which everything is there; none if there is none yet.
     ///
     /// # Errors
-    /// If the journal exists and cannot be read.
+    /// If the journal exists and cannot be read, or a later program wrote the files.
     pub fn read(folder: &Path) -> Result<Option<Self>, StoreError> {
         // The journal last: what a checkpoint counts is in it by then, also when the run goes on meanwhile.
-        let checkpoints = checkpoints(folder).used;
-        let mut entries = journal::read(&folder.join(JOURNAL))?.entries;
+        let checkpoints = checkpoints(folder)?.used;
+        let mut entries = journalled(folder)?.1.entries;
         entries.sort_by_key(|e| (e.generation, e.slot));
         entries.dedup_by_key(|e| (e.generation, e.slot));
         let complete = checkpoints.into_iter().find_map(|checkpoint| {
