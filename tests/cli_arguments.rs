@@ -94,6 +94,20 @@ fn strings_come_from_any_spreadsheet() {
     let semicolons = evaluate("\u{feff}name;string\r\ninitial;\r\nother;TPD\r\n");
     assert_eq!(commas.status.code(), Some(0));
     assert_eq!(commas.stdout, semicolons.stdout);
+    for text in [
+        "sep=;\r\nname;string\r\ninitial;\r\nother;TPD\r\n;\r\n",
+        "Name\tString\tnote\ninitial\t\t\nother\t TPD \t\n\t\t\n\n",
+        "\"name\",\"string\",\"\"\n\"initial\",\"\",\n\"other\",\"TPD\",\n,,\n",
+        "name;string\rinitial;\rother;TPD\r",
+    ] {
+        assert_eq!(evaluate(text).stdout, commas.stdout, "{text:?}");
+    }
+    let wide: Vec<u8> = "\u{feff}name\tstring\r\ninitial\t\r\nother\tTPD\r\n"
+        .encode_utf16()
+        .flat_map(u16::to_le_bytes)
+        .collect();
+    fs::write(folder.join("s.csv"), wide).unwrap();
+    assert_eq!(quadrille(folder, &["evaluate", &ci, "--strings", "s.csv"]).stdout, commas.stdout);
     for (text, words) in [
         ("string\n", "no strings below the header"),
         ("", "the file is empty"),
@@ -103,11 +117,9 @@ fn strings_come_from_any_spreadsheet() {
         refused(folder, &["evaluate", &ci, "--strings", "s.csv"], words);
     }
     for (bytes, words) in [
-        (
-            &b"string,note\nTPD,gut\nTPP,sch\xf6n\n"[..],
-            "s.csv: line 3: not in UTF-8; save the table as \"CSV UTF-8\"",
-        ),
-        (b"\xff\xfes\0t\0r\0", "s.csv: line 1: not in UTF-8"),
+        (&b"string,note\nTPD,gut\nTPP,sch\xf6n\n"[..], "s.csv: line 3: not in UTF-8; save the file as UTF-8"),
+        (b"\xff\xfes\0t\0r", "s.csv: line 1: a broken text in UTF-16"),
+        (b"string,feasible\nTRUE,TRUE\n", "s.csv:2: \"TRUE\""),
     ] {
         fs::write(folder.join("s.csv"), bytes).unwrap();
         refused(folder, &["evaluate", &ci, "--strings", "s.csv"], words);

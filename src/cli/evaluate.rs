@@ -7,6 +7,8 @@ use super::folder_args::refuse_file;
 use super::topology::parse_string;
 use super::{CliError, Console};
 use quadrille::grammar::Tokens;
+use quadrille::io::table;
+use quadrille::io::text::decode;
 use quadrille::output::atomic;
 use quadrille::output::folder::{CHECKPOINT, DESIGNS, EVALUATION, JOURNAL, JOURNAL_BEFORE, MANIFEST};
 use quadrille::output::results::DesignFiles;
@@ -26,7 +28,7 @@ pub struct Args {
     /// A string, such as ATTA; may be given several times.
     #[arg(long, value_name = "S")]
     string: Vec<String>,
-    /// A CSV file (fields separated by commas or semicolons) with a column `string` and, if wanted, a column `name`.
+    /// A CSV file (fields separated by commas, semicolons or tabs) with a column `string` and, if wanted, a column `name`.
     #[arg(long, value_name = "FILE.csv")]
     strings: Option<PathBuf>,
     /// Write tables, meshes and pictures into this folder.
@@ -76,29 +78,33 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
 fn read_strings(file: &Path) -> Result<Vec<(String, Tokens)>, CliError> {
     let wrong = |message: String| CliError::Input(format!("{}: {message}", file.display()));
     let bytes = std::fs::read(file).map_err(CliError::read(file))?;
-    let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(&bytes);
-    if let Err(error) = std::str::from_utf8(bytes) {
-        let line = 1 + bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count();
-        return Err(wrong(format!("line {line}: not in UTF-8; save the table as \"CSV UTF-8\"")));
-    }
-    // As spreadsheets of countries with a decimal comma write it.
-    let first_line = bytes.split(|&byte| byte == b'\n').next().unwrap_or_default();
-    let delimiter = if first_line.contains(&b';') && !first_line.contains(&b',') { b';' } else { b',' };
-    let mut reader = csv::ReaderBuilder::new().delimiter(delimiter).flexible(true).from_reader(bytes);
-    let header = reader.headers().map_err(|error| wrong(error.to_string()))?.clone();
-    let column = |name: &str| header.iter().position(|heading| heading.trim() == name);
+    let text = decode(&bytes).map_err(|(line, reason)| wrong(format!("line {line}: {reason}")))?;
+    let (delimiter, has_hint) = table::delimiter(text.as_bytes());
+    let mut reader = csv::ReaderBuilder::new()
+        .delimiter(delimiter)
+        .flexible(true)
+        .has_headers(false)
+        .from_reader(text.as_bytes());
+    let mut records = reader.records().skip(usize::from(has_hint));
+    let header = records.next().transpose().map_err(|error| wrong(error.to_string()))?.unwrap_or_default();
+    let column = |name: &str| header.iter().position(|heading| heading.trim().eq_ignore_ascii_case(name));
     let strings = column("string").ok_or_else(|| match header.iter().collect::<Vec<_>>().join(", ") {
         found if found.is_empty() => {
             wrong("the file is empty; its first line must name a column `string`".into())
         }
-        found => wrong(format!("line 1: no column `string`; found {found}")),
+        found => wrong(format!("line {}: no column `string`; found {found}", 1 + usize::from(has_hint))),
     })?;
     let mut named = Vec::new();
-    for record in reader.records() {
+    for record in records {
         let record = record.map_err(|error| wrong(error.to_string()))?;
+        // What spreadsheets leave below a table.
+        if record.len() > 1 && record.iter().all(|cell| cell.trim().is_empty()) {
+            continue;
+        }
         let line = record.position().map_or(0, csv::Position::line);
-        let text = record.get(strings).unwrap_or_default();
-        let name = column("name").and_then(|index| record.get(index)).filter(|name| !name.is_empty());
+        let text = record.get(strings).unwrap_or_default().trim();
+        let name =
+            column("name").and_then(|index| record.get(index)).map(str::trim).filter(|name| !name.is_empty());
         let tokens = parse_string(&format!("{}:{line}:", file.display()), text)?;
         named.push((name.unwrap_or(text).to_owned(), tokens));
     }

@@ -3,6 +3,7 @@
 use super::stdout::print_result;
 use super::{CliError, Console, exit};
 use clap::ValueEnum;
+use quadrille::io::text;
 use quadrille::structure::file;
 use quadrille::structure::{FrameModel, FrameResult, frame};
 use std::fmt::Write as _;
@@ -49,7 +50,7 @@ enum Format {
 /// Runs the command.
 pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     let name = args.model.display();
-    let text = std::fs::read_to_string(&args.model).map_err(CliError::read(&args.model))?;
+    let text = text::read(&args.model).map_err(CliError::read(&args.model))?;
     let (model, analysis) = match file::read(&text) {
         Ok(read) => read,
         Err(error) => {

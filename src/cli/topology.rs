@@ -4,6 +4,7 @@ use super::CliError;
 use super::config_args::ConfigArgs;
 use clap::ValueEnum;
 use quadrille::grammar::{Rules, Tokens};
+use quadrille::io::text;
 use quadrille::mesh::{InitialMesh, base_json};
 use std::path::{Path, PathBuf};
 
@@ -56,7 +57,7 @@ impl TopologyArgs {
 
 fn read_base(file: &Path) -> Result<InitialMesh, CliError> {
     let wrong = |message: String| CliError::Input(format!("{}: {message}", file.display()));
-    let text = std::fs::read_to_string(file).map_err(CliError::read(file))?;
+    let text = text::read(file).map_err(CliError::read(file))?;
     let base = base_json::read(&text).map_err(|error| wrong(error.to_string()))?;
     InitialMesh::from_base(&base).map_err(|error| wrong(error.to_string()))
 }

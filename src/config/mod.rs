@@ -71,7 +71,8 @@ pub struct Config {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct RunParams {
-    /// Name of the run; results go to `results/<name>/`. Default: the name of the config file.
+    /// Name of the run; results go to `results/<name>/`. Default: the name of the config file, with `_` for what no folder's name can
+    /// have.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// Seed of all chance; drawn, printed and recorded if absent.

@@ -28,7 +28,7 @@ impl Project {
     pub fn open(file: &Path, sets: &[String]) -> Result<Self, ConfigError> {
         let source = Source::read(file, sets)?;
         let stem = file.file_stem().filter(|_| !is_stream(file));
-        let stem = stem.map_or("run".into(), |stem| stem.to_string_lossy().into_owned());
+        let stem = stem.map_or("run".into(), |stem| name_of(&stem.to_string_lossy()));
         let mut config = parse(&source)?;
         config.run.name.get_or_insert(stem);
         resolved::fill_in(&mut config, source.values());
@@ -45,6 +45,15 @@ impl Project {
     pub fn place(&self, key: &str) -> Place {
         self.source.place(&KeyPath::of(key))
     }
+}
+
+/// The name of a run whose config file is called so: what a folder's name cannot have becomes `_`, since what a file is called makes no
+/// config invalid.
+fn name_of(stem: &str) -> String {
+    let fits = |c: char| if rules::fits_in_a_name(c) { c } else { '_' };
+    let name: String = stem.chars().map(fits).collect();
+    let name = name.trim_end_matches(['.', ' ']);
+    if name.is_empty() { "run".to_owned() } else { name.to_owned() }
 }
 
 fn parse(source: &Source) -> Result<Config, ConfigError> {

@@ -33,6 +33,11 @@ pub fn check(config: &Config, inputs: &Inputs) -> Vec<Problem> {
     rules.problems
 }
 
+/// Whether a character can stand in the name of a folder, on any system.
+pub(super) fn fits_in_a_name(c: char) -> bool {
+    !c.is_control() && !"/\\:*?\"<>|".contains(c)
+}
+
 struct Rules<'a> {
     inputs: &'a Inputs,
     problems: Vec<Problem>,
@@ -62,10 +67,11 @@ impl Rules<'_> {
             self.refuse("version", format!("found {}; allowed: {VERSION}", config.version));
         }
         let name = config.run.name.as_deref().unwrap_or_default();
-        let plain = |c: char| c.is_alphanumeric() || "-_. ".contains(c);
-        if name.trim_matches(['.', ' ']).is_empty() || !name.chars().all(plain) {
-            let message =
-                format!("found \"{name}\"; allowed: letters, digits, -, _, . and spaces (it names a folder)");
+        if name.trim_matches(['.', ' ']).is_empty() || !name.chars().all(fits_in_a_name) {
+            let message = format!(
+                "found {name:?}; allowed: a name of a folder, with any characters but / \\ : * ? \" < > | and control characters, \
+                 and not of dots and spaces alone"
+            );
             self.refuse("run.name", message);
         }
     }

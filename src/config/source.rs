@@ -2,6 +2,8 @@
 
 use super::error::{ConfigError, Located, Place, Problem};
 use super::path::{KeyPath, Segment};
+use crate::io::text;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
@@ -22,8 +24,8 @@ impl Source {
     /// If the file cannot be read or is not TOML, or an argument is not `key=value` with a key that can be set.
     pub fn read(file: &Path, sets: &[String]) -> Result<Self, ConfigError> {
         let read = match file == Path::new("-") {
-            true => std::io::read_to_string(std::io::stdin()),
-            false => std::fs::read_to_string(file),
+            true => stdin(),
+            false => text::read(file),
         };
         let text = read.map_err(|source| ConfigError::Read { file: file.to_path_buf(), source })?;
         Self::parse(file, text, sets)
@@ -90,6 +92,12 @@ impl Source {
         located.sort_by(|a, b| a.place.cmp(&b.place));
         ConfigError::Invalid(located)
     }
+}
+
+fn stdin() -> io::Result<String> {
+    let mut bytes = Vec::new();
+    io::stdin().read_to_end(&mut bytes)?;
+    text::owned(&bytes)
 }
 
 /// What the parser says; of a number that TOML has no room for, also what it has room for.

@@ -141,7 +141,7 @@ pub enum DomainError {
     },
     /// The file does not have this polyline.
     #[error(
-        "domain.loop[{loop_number}]: {file} has {found} polylines (`l`), number {polyline} (from 0) does not exist: export the boundary as a polyline"
+        "domain.loop[{loop_number}]: {file} has {found} polylines (`l`), number {polyline} (from 0) does not exist: export the boundary as a polyline{hint}"
     )]
     NoSuchPolyline {
         /// The loop.
@@ -152,10 +152,35 @@ pub enum DomainError {
         polyline: usize,
         /// How many there are.
         found: usize,
+        /// What the file has instead.
+        hint: String,
+    },
+    /// Points of a file.
+    #[error("{error}; in {file}:{}", numbers(lines))]
+    InFile {
+        /// The file.
+        file: String,
+        /// The lines of the points.
+        lines: Vec<usize>,
+        /// What is wrong with them.
+        error: Box<DomainError>,
+    },
+    /// A polyline that makes sense only with y up.
+    #[error(
+        "domain.loop[{loop_number}]: {file}:{line}: the polyline has its area in x and z, as in files with y up: files are read with z \
+         up, so export it with z up"
+    )]
+    YUp {
+        /// The loop.
+        loop_number: usize,
+        /// The file.
+        file: String,
+        /// The line, from 1.
+        line: usize,
     },
     /// The polyline does not return to its first point.
     #[error(
-        "domain.loop[{loop_number}]: {file}:{line}: the polyline is open: it must end in its first vertex"
+        "domain.loop[{loop_number}]: {file}:{line}: the polyline is open, its ends are {gap:.6} m apart: it must end in its first vertex"
     )]
     OpenPolyline {
         /// The loop.
@@ -164,6 +189,8 @@ pub enum DomainError {
         file: String,
         /// The line, from 1.
         line: usize,
+        /// How far apart its ends are, m.
+        gap: f64,
     },
     /// The surface does not reach everywhere.
     #[error("surface: it does not cover the domain: no finite height at ({x:.6}, {y:.6}); {extent}")]
@@ -212,7 +239,9 @@ impl DomainError {
             Self::NoSuchPolyline { loop_number, polyline: 1.., .. } => {
                 format!("domain.loop[{loop_number}].polyline")
             }
+            Self::InFile { error, .. } => error.key(params),
             Self::NoSuchPolyline { loop_number, .. }
+            | Self::YUp { loop_number, .. }
             | Self::File { loop_number, .. }
             | Self::OpenPolyline { loop_number, .. } => {
                 format!("domain.loop[{loop_number}].file")
@@ -224,6 +253,11 @@ impl DomainError {
     }
 }
 
+/// Line numbers as a list.
+fn numbers(lines: &[usize]) -> String {
+    lines.iter().map(usize::to_string).collect::<Vec<_>>().join(" and ")
+}
+
 /// The key that gives the points of a loop.
 fn points(params: &DomainParams, loop_number: usize) -> String {
     let is_file = matches!(params.loops.get(loop_number), Some(LoopParams::Obj { .. }));
@@ -232,5 +266,6 @@ fn points(params: &DomainParams, loop_number: usize) -> String {
 
 /// The key of one point of a loop.
 fn point(params: &DomainParams, loop_number: usize, point: usize) -> String {
-    format!("{}[{point}]", points(params, loop_number))
+    let key = points(params, loop_number);
+    if key.ends_with("file") { key } else { format!("{key}[{point}]") }
 }

@@ -55,6 +55,8 @@ pub struct Domain {
     mark: f64,
     /// Area of the surface within the boundary, m².
     surface_area: f64,
+    /// Loops whose file leaves gaps that were closed, and the widest of each, m.
+    pub closed_gaps: Vec<(usize, f64)>,
 }
 
 impl Domain {
@@ -89,14 +91,13 @@ impl Domain {
         if params.loops.is_empty() {
             return Err(DomainError::NoLoop);
         }
-        let (curves, marked): (Vec<Curve>, Vec<_>) = params
-            .loops
-            .iter()
-            .enumerate()
-            .map(|(i, given)| read::curve(i, given, inputs))
-            .collect::<Result<Vec<_>, _>>()?
-            .into_iter()
-            .unzip();
+        let (mut curves, mut marked, mut closed_gaps) = (Vec::new(), Vec::new(), Vec::new());
+        for (i, given) in params.loops.iter().enumerate() {
+            let (curve, corners, gap) = read::curve(i, given, inputs)?;
+            curves.push(curve);
+            marked.push(corners);
+            closed_gaps.extend((gap > 0.0).then_some((i, gap)));
+        }
         check::curves(&curves)?;
         check::covered(&curves, surface.as_ref())?;
         let plan_area = curves[0].area() - curves[1..].iter().map(Curve::area).sum::<f64>();
@@ -117,7 +118,7 @@ impl Domain {
             .map(|(curve, corners)| BoundaryLoop::new(curve, surface, corners, way))
             .collect();
         let plan_loops = loops.iter().map(BoundaryLoop::in_plan).collect();
-        Ok(Self { loops, plan_loops, mark, surface_area })
+        Ok(Self { loops, plan_loops, mark, surface_area, closed_gaps })
     }
 
     /// Corners of all loops together.

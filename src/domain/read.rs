@@ -4,7 +4,8 @@ use super::curve::{Curve, signed_area};
 use super::error::DomainError;
 use super::kinks;
 use super::params::{CornerRule, Corners, LoopParams};
-use crate::io::{Input, Inputs, LengthUnit, obj};
+use crate::io::{Input, Inputs, LengthUnit, MEET, obj};
+use std::path::PathBuf;
 
 /// What tells the corners of a curve.
 pub(super) enum Marked {
@@ -25,13 +26,13 @@ impl Marked {
     }
 }
 
-/// The curve of a loop, counter-clockwise, and what tells its corners.
+/// The curve of a loop, counter-clockwise, what tells its corners, and the widest gap that had to be closed, m.
 pub(super) fn curve(
     number: usize,
     given: &LoopParams,
     inputs: &Inputs,
-) -> Result<(Curve, Marked), DomainError> {
-    match given {
+) -> Result<(Curve, Marked, f64), DomainError> {
+    let (curve, marked) = match given {
         LoopParams::Polyline { points_m, corners, corner_angle_deg } => {
             let points = points_m
                 .iter()
@@ -59,10 +60,13 @@ pub(super) fn curve(
         }
         LoopParams::Obj { file, unit, polyline: index, corners, corner_angle_deg } => {
             let read = inputs.get(file).map_err(|error| DomainError::File { loop_number: number, error })?;
-            let points = obj_points(number, read, *unit, *index)?;
-            polyline(number, points, corners, *corner_angle_deg)
+            let drawn = Drawn::read(number, read, *unit, *index)?;
+            let (curve, marked) = polyline(number, drawn.points.clone(), corners, *corner_angle_deg)
+                .map_err(|error| drawn.locate(error))?;
+            return Ok((curve, marked, drawn.gap));
         }
-    }
+    }?;
+    Ok((curve, marked, 0.0))
 }
 
 fn finite(loop_number: usize, what: impl Fn() -> String, value: f64) -> Result<f64, DomainError> {
@@ -90,28 +94,82 @@ fn point(loop_number: usize, given: &[f64], what: impl Fn() -> String) -> Result
     Ok(position)
 }
 
-/// The points of a closed polyline of an OBJ file. It is closed when it ends in its first vertex, or at the place of it:
-/// exporters write that vertex twice.
-fn obj_points(
+/// A closed polyline of an OBJ file.
+struct Drawn {
     loop_number: usize,
-    input: Input<'_>,
-    unit: LengthUnit,
-    index: usize,
-) -> Result<Vec<[f64; 3]>, DomainError> {
-    let obj = obj::read(input, unit).map_err(|error| DomainError::File { loop_number, error })?;
-    let name = || input.file.display().to_string();
-    let Some(polyline) = obj.polylines.get(index) else {
-        let found = obj.polylines.len();
-        return Err(DomainError::NoSuchPolyline { loop_number, file: name(), polyline: index, found });
-    };
-    let mut points: Vec<_> = polyline.iter().map(|&v| obj.vertices[v as usize]).collect();
-    let (first, last) = (points[0], points[points.len() - 1]);
-    let reach = points.iter().flat_map(|p| (0..3).map(|k| (p[k] - first[k]).abs())).fold(0.0, f64::max);
-    if (0..3).any(|k| (first[k] - last[k]).abs() > 1e-9 * reach) {
-        return Err(DomainError::OpenPolyline { loop_number, file: name(), line: obj.polyline_lines[index] });
+    file: PathBuf,
+    points: Vec<[f64; 3]>,
+    /// The line of each point.
+    point_lines: Vec<usize>,
+    /// The line of the polyline.
+    line: usize,
+    /// The widest gap that had to be closed, m.
+    gap: f64,
+}
+
+impl Drawn {
+    /// It is closed when it ends in its first vertex, or within [`MEET`] of its size from there: exporters write that vertex twice, and
+    /// round it.
+    fn read(
+        loop_number: usize,
+        input: Input<'_>,
+        unit: LengthUnit,
+        index: usize,
+    ) -> Result<Self, DomainError> {
+        let obj = obj::read(input, unit).map_err(|error| DomainError::File { loop_number, error })?;
+        let name = || input.file.display().to_string();
+        let Some(polyline) = obj.polylines.get(index) else {
+            let (found, hint) = (obj.polylines.len(), obj.hint());
+            return Err(DomainError::NoSuchPolyline {
+                loop_number,
+                file: name(),
+                polyline: index,
+                found,
+                hint,
+            });
+        };
+        let mut points: Vec<_> = polyline.iter().map(|&v| obj.vertices[v as usize]).collect();
+        let mut point_lines: Vec<_> = polyline.iter().map(|&v| obj.vertex_lines[v as usize]).collect();
+        let (first, last) = (points[0], points[points.len() - 1]);
+        let away = |p: &[f64; 3]| (0..3).map(|k| (p[k] - first[k]) * (p[k] - first[k])).sum::<f64>().sqrt();
+        let reach = points.iter().map(away).fold(0.0, f64::max);
+        let (open, line) = (away(&last), obj.polyline_lines[index]);
+        if open > MEET * reach {
+            return Err(DomainError::OpenPolyline { loop_number, file: name(), line, gap: open });
+        }
+        points.pop();
+        point_lines.pop();
+        let gap = open.max(obj.polyline_gaps[index]);
+        // Rounding is not worth a word.
+        let gap = if gap > 1e-9 * reach { gap } else { 0.0 };
+        Ok(Self { loop_number, file: input.file.to_owned(), points, point_lines, line, gap })
     }
-    points.pop();
-    Ok(points)
+
+    /// A fault of its points with their lines; or, where they make sense with y up, that.
+    fn locate(&self, error: DomainError) -> DomainError {
+        let (loop_number, file) = (self.loop_number, self.file.display().to_string());
+        let line = |i: &usize| self.point_lines[i % self.point_lines.len()];
+        let points = match &error {
+            DomainError::ZeroEdge { first, second, .. } => vec![*first, *second],
+            DomainError::SelfCrossing { first, second, .. } => vec![first[0], second[0]],
+            _ => return error,
+        };
+        let from_z: Vec<_> = self.points.iter().map(|p| [p[0], -p[2], p[1]]).collect();
+        let has_area = signed_area(&from_z).abs() > signed_area(&self.points).abs();
+        if has_area && repeated(&from_z).is_none() && super::check::simple(loop_number, &from_z).is_ok() {
+            return DomainError::YUp { loop_number, file, line: self.line };
+        }
+        DomainError::InFile { file, lines: points.iter().map(line).collect(), error: Box::new(error) }
+    }
+}
+
+/// Two points of a closed polyline, one after the other, at one place in plan.
+fn repeated(points: &[[f64; 3]]) -> Option<(usize, usize)> {
+    let reach = points.iter().map(|p| (p[0] - points[0][0]).hypot(p[1] - points[0][1])).fold(0.0, f64::max);
+    (0..points.len()).map(|first| (first, (first + 1) % points.len())).find(|&(first, second)| {
+        let ([x, y, _], [u, v, _]) = (points[first], points[second]);
+        (x - u).hypot(y - v) <= 1e-9 * reach
+    })
 }
 
 /// A polyline from its points, turned counter-clockwise.
@@ -128,12 +186,9 @@ fn polyline(
     if !(angle_deg > 0.0 && angle_deg < 180.0) {
         return Err(DomainError::CornerAngle { loop_number, value: angle_deg });
     }
-    for first in 0..count {
-        let second = (first + 1) % count;
-        let ([x, y, _], [u, v, _]) = (points[first], points[second]);
-        if (x, y) == (u, v) {
-            return Err(DomainError::ZeroEdge { loop_number, first, second, x, y });
-        }
+    if let Some((first, second)) = repeated(&points) {
+        let [x, y, _] = points[first];
+        return Err(DomainError::ZeroEdge { loop_number, first, second, x, y });
     }
     super::check::simple(loop_number, &points)?;
     let is_clockwise = signed_area(&points) < 0.0;

@@ -191,7 +191,7 @@ impl Default for TopologyParams {
 pub enum InitialMesh {
     /// The word `"skeleton"`.
     Word(Skeleton),
-    /// An OBJ, COMPAS JSON or base-mesh JSON file.
+    /// An OBJ, COMPAS JSON or base-mesh JSON file. Boundary vertices within 1e-4 of the domain's size from its corners take them.
     File {
         /// The file, relative to the config.
         file: PathBuf,

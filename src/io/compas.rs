@@ -1,6 +1,8 @@
 //! Meshes in COMPAS JSON: 2.x, the 1.x wrapper, and the bare dictionaries before it (ECOSYSTEM §3a).
 
+use super::text::decode;
 use super::{Input, ReadError};
+use crate::json;
 use crate::mesh::BaseMesh;
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
@@ -11,12 +13,11 @@ use std::collections::BTreeMap;
 /// # Errors
 /// Broken JSON with its line, no mesh in it, or the key whose value is wrong.
 pub fn read(Input { file, bytes }: Input<'_>) -> Result<BaseMesh, ReadError> {
-    let value: Value = serde_json::from_slice(bytes).map_err(|e| ReadError::Line {
-        file: file.to_owned(),
-        line: e.line(),
-        reason: e.to_string(),
-    })?;
-    from_value(&value).map_err(|reason| ReadError::Content { file: file.to_owned(), reason })
+    let text =
+        decode(bytes).map_err(|(line, reason)| ReadError::Line { file: file.to_owned(), line, reason })?;
+    let content = |reason: String| ReadError::Content { file: file.to_owned(), reason };
+    let value: Value = json::read(&text).map_err(|error| content(error.to_string()))?;
+    from_value(&value).map_err(content)
 }
 
 /// Reads the first mesh in a JSON value.

@@ -2,10 +2,14 @@
 
 pub mod compas;
 mod inputs;
+mod join;
 pub mod obj;
+pub mod table;
+pub mod text;
 mod unit;
 
 pub use inputs::{Input, Inputs, found, hex, sha256};
+pub use join::MEET;
 pub use unit::LengthUnit;
 
 use std::path::PathBuf;

@@ -1,12 +1,17 @@
 //! Wavefront OBJ: vertices, faces and polylines. Every fault is told with its line.
 //!
-//! What exporters really do (ECOSYSTEM §3b): `a/b/c` corners, negative indices, `\`-continued lines, CRLF, comments in other
-//! encodings, and curves in pieces of two vertices. All of that is read; free-form geometry, groups and materials are left out.
+//! What exporters really do (ECOSYSTEM §3b): `a/b/c` corners, negative indices, `\`-continued lines, line ends of all systems,
+//! comments in other encodings or ending in a path's `\`, and curves in pieces of two vertices. All of that is read; other keywords
+//! are left out, those of the format (free-form geometry, groups, materials) and those of exporters alike.
 
+use super::join::{Chain, join};
+use super::text::{decode_lossy, lines};
 use super::{Input, LengthUnit, ReadError};
 use crate::mesh::BaseMesh;
-use std::collections::BTreeMap;
 use std::fmt::Write as _;
+
+/// So that products of coordinates stay finite.
+const MAX_COORDINATE: f64 = 1e50;
 
 /// What an OBJ file holds, vertex numbers from 0.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -19,25 +24,44 @@ pub struct ObjFile {
     pub faces: Vec<Vec<u32>>,
     /// For each face, its line in the file, from 1.
     pub face_lines: Vec<usize>,
-    /// Polylines; pieces that meet end to end are joined. A closed one repeats its first vertex at the end.
+    /// Polylines; pieces that meet end to end are joined. A closed one ends in its first vertex, or at the place of it.
     pub polylines: Vec<Vec<u32>>,
     /// For each polyline, the line of its first piece.
     pub polyline_lines: Vec<usize>,
+    /// For each polyline, the widest gap between pieces that were joined, in the unit of the vertices.
+    pub polyline_gaps: Vec<f64>,
+    /// The first keyword that was left out though it is none of the format, and its line.
+    pub unknown: Option<(usize, String)>,
+}
+
+impl ObjFile {
+    /// What to tell where something was looked for in vain: what the file has instead.
+    pub fn hint(&self) -> String {
+        match &self.unknown {
+            _ if self.vertices.is_empty() && self.unknown.is_none() => {
+                "; the file has no vertices".to_owned()
+            }
+            Some((line, word)) => format!("; line {line} begins with `{word}`, which is no keyword of OBJ"),
+            None => String::new(),
+        }
+    }
 }
 
 /// Reads a file whose coordinates have the given unit.
 ///
 /// # Errors
 /// The first line that is wrong.
-pub fn read(input: Input<'_>, unit: LengthUnit) -> Result<ObjFile, ReadError> {
-    let mut obj = parse(&String::from_utf8_lossy(input.bytes)).map_err(|(line, reason)| ReadError::Line {
-        file: input.file.to_owned(),
-        line,
-        reason,
-    })?;
+pub fn read(Input { file, bytes }: Input<'_>, unit: LengthUnit) -> Result<ObjFile, ReadError> {
+    let parsed = decode_lossy(bytes).and_then(|text| parse(&text));
+    let mut obj = parsed.map_err(|(line, reason)| ReadError::Line { file: file.to_owned(), line, reason })?;
     obj.vertices.iter_mut().for_each(|position| *position = position.map(|c| unit.metres(c)));
+    obj.polyline_gaps.iter_mut().for_each(|gap| *gap = unit.metres(*gap));
     Ok(obj)
 }
+
+/// Keywords of the format that are followed by names, which may end in anything.
+const NAMES: [&str; 10] =
+    ["g", "o", "usemtl", "mtllib", "maplib", "usemap", "shadow_obj", "trace_obj", "call", "csh"];
 
 /// Keywords of the format that say nothing about a polygon mesh.
 const IGNORED: [&str; 36] = [
@@ -86,9 +110,7 @@ const IGNORED: [&str; 36] = [
 pub fn parse(text: &str) -> Result<ObjFile, (usize, String)> {
     let mut obj = ObjFile::default();
     let mut pieces = Vec::new();
-    let mut piece_lines = Vec::new();
     for (line, content) in logical_lines(text) {
-        let content = content.split('#').next().unwrap_or("");
         let mut words = content.split_whitespace();
         let Some(keyword) = words.next() else { continue };
         let fault = |reason: String| (line, reason);
@@ -102,41 +124,61 @@ pub fn parse(text: &str) -> Result<ObjFile, (usize, String)> {
                 obj.face_lines.push(line);
             }
             "l" => {
-                pieces.push(corners(words, obj.vertices.len(), 2, "polyline").map_err(fault)?);
-                piece_lines.push(line);
+                let vertices = corners(words, obj.vertices.len(), 2, "polyline").map_err(fault)?;
+                pieces.push(Chain { vertices, line, gap: 0.0 });
             }
             _ if IGNORED.contains(&keyword) => {}
-            _ => return Err((line, format!("`{keyword}` is not a keyword of OBJ"))),
+            _ if obj.unknown.is_none() => obj.unknown = Some((line, shortened(keyword))),
+            _ => {}
         }
     }
     let count = obj.vertices.len();
-    let faults = [in_range(&obj.faces, &obj.face_lines, count), in_range(&pieces, &piece_lines, count)];
+    let faces = obj.faces.iter().zip(obj.face_lines.iter().copied());
+    let faults = [in_range(faces, count), in_range(pieces.iter().map(|p| (&p.vertices, p.line)), count)];
     if let Some(first) = faults.into_iter().filter_map(Result::err).min_by_key(|(line, _)| *line) {
         return Err(first);
     }
-    (obj.polylines, obj.polyline_lines) = join(pieces, piece_lines);
+    for Chain { vertices, line, gap } in join(pieces, &obj.vertices) {
+        obj.polylines.push(vertices);
+        obj.polyline_lines.push(line);
+        obj.polyline_gaps.push(gap);
+    }
     Ok(obj)
 }
 
-/// Lines with their numbers; one that ends in `\` goes on in the next.
+/// A word as messages show it.
+fn shortened(word: &str) -> String {
+    match word.char_indices().nth(24) {
+        Some((end, _)) => format!("{}…", &word[..end]),
+        None => word.to_owned(),
+    }
+}
+
+/// Lines without comments, with their numbers. One of numbers that ends in `\` goes on in the next; a comment or a name that does,
+/// as a Windows path, does not.
 fn logical_lines(text: &str) -> Vec<(usize, String)> {
-    let mut lines: Vec<(usize, String)> = Vec::new();
+    let mut logical: Vec<(usize, String)> = Vec::new();
     let mut continued = false;
-    for (i, raw) in text.trim_start_matches('\u{feff}').lines().enumerate() {
-        let (content, goes_on) = match raw.trim_end().strip_suffix('\\') {
+    for (i, raw) in lines(text).enumerate() {
+        let content = raw.split('#').next().unwrap_or("").trim();
+        let (content, ends_so) = match content.strip_suffix('\\') {
             Some(rest) => (rest, true),
-            None => (raw, false),
+            None => (content, false),
         };
-        match lines.last_mut().filter(|_| continued) {
+        match logical.last_mut().filter(|_| continued) {
             Some((_, before)) => {
                 before.push(' ');
                 before.push_str(content);
             }
-            None => lines.push((i + 1, content.to_owned())),
+            None => logical.push((i + 1, content.to_owned())),
         }
-        continued = goes_on;
+        let has_numbers = |line: &str| {
+            let keyword = line.split_whitespace().next().unwrap_or("");
+            ["v", "f", "l"].contains(&keyword) || (IGNORED.contains(&keyword) && !NAMES.contains(&keyword))
+        };
+        continued = ends_so && logical.last().is_some_and(|(_, line)| has_numbers(line));
     }
-    lines
+    logical
 }
 
 /// The first three numbers after `v`; a weight or a colour may follow.
@@ -147,6 +189,9 @@ fn vertex<'a>(mut words: impl Iterator<Item = &'a str>) -> Result<[f64; 3], Stri
         *value = word.parse().map_err(|_| format!("{axis} is `{word}`, which is not a number"))?;
         if !value.is_finite() {
             return Err(format!("{axis} is `{word}`, which is not finite"));
+        }
+        if value.abs() > MAX_COORDINATE {
+            return Err(format!("{axis} is `{word}`, which is beyond ±{MAX_COORDINATE:e}"));
         }
     }
     Ok(position)
@@ -177,8 +222,11 @@ fn corner(word: &str, known: usize) -> Result<u32, String> {
     })
 }
 
-fn in_range(items: &[Vec<u32>], lines: &[usize], count: usize) -> Result<(), (usize, String)> {
-    for (item, &line) in items.iter().zip(lines) {
+fn in_range<'a>(
+    items: impl Iterator<Item = (&'a Vec<u32>, usize)>,
+    count: usize,
+) -> Result<(), (usize, String)> {
+    for (item, line) in items {
         if let Some(&v) = item.iter().find(|&&v| v as usize >= count) {
             return Err((line, format!("vertex {} does not exist: the file has {count}", u64::from(v) + 1)));
         }
@@ -186,54 +234,10 @@ fn in_range(items: &[Vec<u32>], lines: &[usize], count: usize) -> Result<(), (us
     Ok(())
 }
 
-/// Joins pieces that meet where no third one does; the result is in the order of the first pieces.
-fn join(pieces: Vec<Vec<u32>>, lines: Vec<usize>) -> (Vec<Vec<u32>>, Vec<usize>) {
-    let mut ends: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
-    for (i, piece) in pieces.iter().enumerate() {
-        let (first, last) = (piece[0], piece[piece.len() - 1]);
-        if first != last {
-            ends.entry(first).or_default().push(i);
-            ends.entry(last).or_default().push(i);
-        }
-    }
-    let mut used = vec![false; pieces.len()];
-    let (mut chains, mut chain_lines) = (Vec::new(), Vec::new());
-    for (i, piece) in pieces.iter().enumerate() {
-        if used[i] {
-            continue;
-        }
-        used[i] = true;
-        let mut chain = piece.clone();
-        extend(&mut chain, &pieces, &ends, &mut used);
-        if chain[0] != chain[chain.len() - 1] {
-            chain.reverse();
-            extend(&mut chain, &pieces, &ends, &mut used);
-            chain.reverse();
-        }
-        chains.push(chain);
-        chain_lines.push(lines[i]);
-    }
-    (chains, chain_lines)
-}
-
-/// Goes on at the end of the chain as long as exactly one other unused piece starts or ends there.
-fn extend(chain: &mut Vec<u32>, pieces: &[Vec<u32>], ends: &BTreeMap<u32, Vec<usize>>, used: &mut [bool]) {
-    loop {
-        let last = chain[chain.len() - 1];
-        let Some(meeting) = ends.get(&last).filter(|m| m.len() == 2 && chain[0] != last) else { return };
-        let Some(&next) = meeting.iter().find(|&&i| !used[i]) else { return };
-        used[next] = true;
-        let piece = &pieces[next];
-        if piece[0] == last {
-            chain.extend(&piece[1..]);
-        } else {
-            chain.extend(piece.iter().rev().skip(1));
-        }
-    }
-}
-
 /// A mesh as OBJ text: z up, metres, positive indices from 1, shortest numbers that read back the same.
 pub fn write(name: &str, mesh: &BaseMesh) -> String {
+    // A name is one line, whatever a file is called.
+    let name: String = name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
     let mut text = format!("# units: m, z up\no {name}\n");
     for [x, y, z] in &mesh.vertices {
         let _ = writeln!(text, "v {x} {y} {z}");
@@ -272,6 +276,40 @@ mod tests {
     }
 
     #[test]
+    fn a_backslash_ends_comments_and_names_but_joins_numbers() {
+        let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 5 0 0\nv 6 0 0\n# from C:\\roofs\\\nl 1 2 3\nmtllib C:\\roofs\\\n\
+                    l 4 \\ # on\n5 \nusemtl a \\\nf 1 \\\n2 \\\n 3\n";
+        let obj = parse(text).unwrap();
+        assert_eq!(obj.polylines, [vec![0, 1, 2], vec![3, 4]]);
+        assert_eq!((obj.faces, obj.face_lines), (vec![vec![0, 1, 2]], vec![12]));
+    }
+
+    #[test]
+    fn other_keywords_are_left_out_and_the_first_is_kept_for_messages() {
+        let text = "vc 1 0 0\nv 0 0 0\nv 1 0 0\nv 1 1 0\nfo 1 2 3\nF 1 2 3\nf 1 2 3\n";
+        let obj = parse(text).unwrap();
+        assert_eq!(obj.faces.len(), 1);
+        assert_eq!(obj.unknown, Some((1, "vc".to_owned())));
+        assert!(parse("solid roof\n").unwrap().hint().contains("line 1 begins with `solid`"));
+    }
+
+    #[test]
+    fn pieces_that_share_no_vertex_are_joined_by_their_places() {
+        let square =
+            "v 0 0 0\nv 10 0 0\nv 10 0 0\nv 10 10 0\nv 10 10 0\nv 0 10 0\nl 1 2\nl 3 4\nl 5 6\nl 6 1\n";
+        let obj = parse(square).unwrap();
+        assert_eq!(obj.polylines, [vec![0, 1, 3, 5, 0]]);
+        assert_eq!(obj.polyline_gaps, [0.0]);
+        // A gap at two corners: what is within 1e-4 of the size is joined, what is farther is not.
+        let apart =
+            |gap: &str| square.replacen("v 10 0 0\nv 10 10 0", &format!("v 10 {gap} 0\nv 10 9.9997 0"), 1);
+        let obj = parse(&apart("0.0004")).unwrap();
+        assert_eq!(obj.polylines, [vec![4, 5, 0, 1, 3]]);
+        assert!((obj.polyline_gaps[0] - 0.0004).abs() < 1e-12);
+        assert_eq!(parse(&apart("0.01")).unwrap().polylines.len(), 1, "open, joined at the other corner");
+    }
+
+    #[test]
     fn three_pieces_at_one_vertex_stay_apart() {
         let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nl 1 2\nl 1 3\nl 1 4\n";
         assert_eq!(parse(text).unwrap().polylines.len(), 3);
@@ -288,7 +326,9 @@ mod tests {
             ("v 0 0 0\nf 1 0 1\n", 2, "counts from 1"),
             ("v 0 0 0\nf -1 -2 -1\n", 2, "vertex -2"),
             ("v 0 0 0\nf a b c\n", 2, "not a vertex number"),
-            ("v 0 0 0\nquad 1 2 3\n", 2, "not a keyword"),
+            ("v 0 0 1e51\n", 1, "beyond"),
+            ("v 0 0 1e400\n", 1, "not finite"),
+            ("v 0 0 0\rv 1 0 0\rf 1 2 9", 3, "vertex 9"),
             ("l 1\n", 1, "at least 2"),
             ("v 0 0 0\nf 99999999999 1 1\n", 2, "does not exist"),
         ] {

@@ -5,13 +5,14 @@ use super::folder::{self, CHECKPOINT, EVALUATION, GENERATIONS, HISTORY, MANIFEST
 use super::manifest::{Counts, Manifest, Status};
 use crate::config::Config;
 use crate::evolve::Violation;
+use crate::io::table;
 use crate::mesh::canonical::Code;
 use crate::objectives::GOVERNING;
 use crate::search::{Breeding, EvaluatedRow, GenerationRow, Snapshot};
 use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
 /// Why a results folder cannot be read.
@@ -161,6 +162,7 @@ pub(super) fn read(path: &Path) -> Result<Vec<u8>, LoadError> {
 pub(super) struct Sheet {
     path: PathBuf,
     columns: BTreeMap<String, usize>,
+    delimiter: u8,
 }
 
 impl Sheet {
@@ -172,10 +174,10 @@ impl Sheet {
     ) -> Result<Vec<T>, LoadError> {
         let path = folder.join(name);
         let wrong = |error: csv::Error| LoadError::Format { path: path.clone(), message: error.to_string() };
-        let mut reader = Self::open(&path)?;
+        let (mut reader, delimiter) = Self::open(&path)?;
         let header = reader.headers().map_err(wrong)?;
         let columns = header.iter().enumerate().map(|(i, name)| (name.to_owned(), i)).collect();
-        let sheet = Self { path: path.clone(), columns };
+        let sheet = Self { path: path.clone(), columns, delimiter };
         let mut cells = csv::StringRecord::new();
         let mut taken = Vec::new();
         while reader.read_record(&mut cells).map_err(wrong)? {
@@ -188,12 +190,18 @@ impl Sheet {
     pub(super) fn header(path: &Path) -> Result<Vec<String>, LoadError> {
         let wrong =
             |error: csv::Error| LoadError::Format { path: path.to_path_buf(), message: error.to_string() };
-        Ok(Self::open(path)?.headers().map_err(wrong)?.iter().map(str::to_owned).collect())
+        Ok(Self::open(path)?.0.headers().map_err(wrong)?.iter().map(str::to_owned).collect())
     }
 
-    fn open(path: &Path) -> Result<csv::Reader<BufReader<File>>, LoadError> {
-        let file = File::open(path).map_err(|source| LoadError::Read { path: path.to_path_buf(), source })?;
-        Ok(csv::Reader::from_reader(BufReader::new(file)))
+    /// The file, and what stands between its cells: a spreadsheet may have saved it again.
+    fn open(path: &Path) -> Result<(csv::Reader<BufReader<File>>, u8), LoadError> {
+        let unread = |source| LoadError::Read { path: path.to_path_buf(), source };
+        let mut file = BufReader::new(File::open(path).map_err(unread)?);
+        let (delimiter, has_hint) = table::delimiter(file.fill_buf().map_err(unread)?);
+        if has_hint {
+            file.skip_until(b'\n').map_err(unread)?;
+        }
+        Ok((csv::ReaderBuilder::new().delimiter(delimiter).from_reader(file), delimiter))
     }
 }
 
@@ -222,9 +230,15 @@ impl<'a> Record<'a> {
         self.cells.get(*index).ok_or_else(missing)
     }
 
+    /// A cell as this program writes it, also where a spreadsheet wrote it.
+    pub(super) fn plain(&self, column: &str) -> Result<String, LoadError> {
+        Ok(table::plain(self.text(column)?, self.sheet.delimiter))
+    }
+
     pub(super) fn parse<T: std::str::FromStr>(&self, column: &str) -> Result<T, LoadError> {
         let text = self.text(column)?;
-        text.parse().map_err(|_| self.wrong(format!("{column}: found \"{text}\"")))
+        let parsed = text.parse().or_else(|_| table::plain(text, self.sheet.delimiter).parse());
+        parsed.map_err(|_| self.wrong(format!("{column}: found \"{text}\"")))
     }
 
     /// A number, or none for an empty cell or a column that is not there.

@@ -3,7 +3,9 @@
 use super::{SkeletonError, initial_mesh};
 use crate::domain::Domain;
 use crate::geometry::params::{InitialMesh as Given, TopologyParams};
-use crate::io::{Input, Inputs, LengthUnit, ReadError, compas, obj};
+use crate::io::text::decode;
+use crate::io::{Input, Inputs, LengthUnit, MEET, ReadError, compas, obj};
+use crate::json;
 use crate::mesh::{BaseMesh, BaseMeshError, InitialMesh, base_json};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -59,7 +61,8 @@ pub enum InitialError {
     },
     /// A corner of the domain has no vertex of the mesh.
     #[error(
-        "topology.initial: corner {corner} of the domain, at ({x}, {y}), has no boundary vertex of the mesh within {tolerance:e} m"
+        "topology.initial: corner {corner} of the domain, at ({x}, {y}), has no boundary vertex of the mesh within {tolerance:.2e} m: the \
+         nearest is {distance:.6} m away"
     )]
     CornerMissing {
         /// The corner.
@@ -68,8 +71,18 @@ pub enum InitialError {
         x: f64,
         /// Where.
         y: f64,
-        /// How far was looked.
+        /// How far was looked, m.
         tolerance: f64,
+        /// How far away the nearest boundary vertex of that loop is, m.
+        distance: f64,
+    },
+    /// A mesh that faces y.
+    #[error(
+        "{error}; most of the mesh faces y, as in files with y up: files are read with z up, so export it with z up"
+    )]
+    YUp {
+        /// Why it does not fit.
+        error: Box<InitialError>,
     },
     /// The mesh gives another number of corners than the domain has.
     #[error("topology.initial: the file lists {found} corners, the domain has {wanted}")]
@@ -85,6 +98,7 @@ impl InitialError {
     /// The key of the config that says what is wrong.
     pub fn key(&self, params: &TopologyParams) -> String {
         match (self, &params.initial) {
+            (Self::YUp { error }, _) => error.key(params),
             (Self::Mesh(BaseMeshError::MarkerNotAnEdge { .. }), _) => "topology.marker".to_owned(),
             (Self::Mesh(error), Given::Inline { .. }) => match error.face() {
                 Some(face) => format!("topology.initial.faces[{face}]"),
@@ -167,12 +181,12 @@ pub fn read(input: Input<'_>, unit: LengthUnit) -> Result<BaseMesh, ReadError> {
         })?;
         return Ok(base);
     }
-    let text = std::str::from_utf8(bytes).map_err(|e| content(e.to_string()))?;
-    let (mut base, counted) = match serde_json::from_str::<serde_json::Value>(text) {
-        Ok(value) if value.get("vertices").is_none() => {
-            (compas::from_value(&value).map_err(content)?, " (counted from 0 in the order of the keys)")
-        }
-        _ => (base_json::read(text).map_err(|e| content(e.to_string()))?, ""),
+    let text =
+        decode(bytes).map_err(|(line, reason)| ReadError::Line { file: file.to_owned(), line, reason })?;
+    let value: serde_json::Value = json::read(&text).map_err(|e| content(e.to_string()))?;
+    let (mut base, counted) = match value.get("vertices") {
+        None => (compas::from_value(&value).map_err(content)?, " (counted from 0 in the order of the keys)"),
+        Some(_) => (base_json::read(&text).map_err(|e| content(e.to_string()))?, ""),
     };
     InitialMesh::from_base(&base).map_err(|error| match error {
         BaseMeshError::TriangleWithoutPole { .. } if !counted.is_empty() => {
@@ -226,7 +240,31 @@ fn grid_mesh([m, n]: [usize; 2], domain: &Domain) -> Result<BaseMesh, InitialErr
 }
 
 /// Fits a mesh from outside to the domain: turns it counter-clockwise, orders its loops as the domain's, marks its corners.
-fn fit(mut base: BaseMesh, domain: &Domain) -> Result<BaseMesh, InitialError> {
+fn fit(base: BaseMesh, domain: &Domain) -> Result<BaseMesh, InitialError> {
+    let is_upright = faces_y(&base);
+    fit_in_plan(base, domain).map_err(|error| match is_upright {
+        true => InitialError::YUp { error: Box::new(error) },
+        false => error,
+    })
+}
+
+/// Whether the faces of a mesh have more area seen along y than from above.
+fn faces_y(base: &BaseMesh) -> bool {
+    let seen = |[i, j]: [usize; 2]| {
+        let p = |v: &u32| base.vertices.get(*v as usize).map_or([0.0; 2], |p| [p[i], p[j]]);
+        let area = |f: &Vec<u32>| {
+            let points: Vec<_> = f.iter().map(p).collect();
+            let n = points.len();
+            let cross =
+                |k: usize| points[k][0] * points[(k + 1) % n][1] - points[k][1] * points[(k + 1) % n][0];
+            (0..n).map(cross).sum::<f64>().abs()
+        };
+        base.faces.iter().map(area).sum::<f64>()
+    };
+    seen([0, 2]) > seen([0, 1])
+}
+
+fn fit_in_plan(mut base: BaseMesh, domain: &Domain) -> Result<BaseMesh, InitialError> {
     if let Some(given) = Some(base.corners.len()).filter(|&n| n > 0 && n != domain.corner_count()) {
         return Err(InitialError::CornerCount { found: given, wanted: domain.corner_count() });
     }
@@ -334,9 +372,9 @@ fn order_holes(base: &mut BaseMesh, loops: &[Vec<u32>]) {
     base.marker.iter_mut().flatten().for_each(rename);
 }
 
-/// The boundary vertices at the corners of the domain, within 1e-6 of its size; without corners, the vertex nearest to its mark.
+/// The boundary vertices at the corners of the domain, within [`MEET`] of its size; without corners, the vertex nearest to its mark.
 fn marks(base: &BaseMesh, loops: &[Vec<u32>], domain: &Domain) -> Result<Vec<Vec<u32>>, InitialError> {
-    let tolerance = 1e-6 * domain.size();
+    let tolerance = MEET * domain.size();
     let away = |v: u32, at: [f64; 3]| {
         let p = base.vertices[v as usize];
         (p[0] - at[0]).hypot(p[1] - at[1])
@@ -352,9 +390,10 @@ fn marks(base: &BaseMesh, loops: &[Vec<u32>], domain: &Domain) -> Result<Vec<Vec
             let at = domain.loops[loop_number].point(s);
             let nearest =
                 loops[loop_number].iter().copied().min_by(|&a, &b| away(a, at).total_cmp(&away(b, at)));
-            match nearest.filter(|&v| away(v, at) <= tolerance) {
+            let distance = nearest.map_or(f64::INFINITY, |v| away(v, at));
+            match nearest.filter(|_| distance <= tolerance) {
                 Some(v) => Ok(vec![v]),
-                None => Err(InitialError::CornerMissing { corner, x: at[0], y: at[1], tolerance }),
+                None => Err(InitialError::CornerMissing { corner, x: at[0], y: at[1], tolerance, distance }),
             }
         })
         .collect()

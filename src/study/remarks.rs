@@ -13,16 +13,23 @@ const LONG: f64 = 0.6;
 impl Study {
     /// Things that are allowed but seldom meant, in words.
     pub fn warnings(&self) -> Vec<String> {
-        [
+        let rest = [
             self.free_directions(),
             self.unchecked_combinations(),
             self.vast_domain(),
             self.vast_surface(),
             self.long_members(),
-        ]
-        .into_iter()
-        .flatten()
-        .collect()
+        ];
+        self.closed_gaps().chain(rest.into_iter().flatten()).collect()
+    }
+
+    /// Boundaries that were not quite closed.
+    fn closed_gaps(&self) -> impl Iterator<Item = String> {
+        self.domain.closed_gaps.iter().map(|(number, gap)| {
+            format!(
+                "domain.loop[{number}]: the polyline of the file has a gap of {gap:.3e} m, which was closed"
+            )
+        })
     }
 
     /// Directions that no support holds.

@@ -29,10 +29,12 @@ pub enum SurfaceError {
     #[error("surface.file: {0}")]
     File(#[from] ReadError),
     /// The mesh has no face with an area.
-    #[error("surface.file: {}: the mesh has no face that could carry a pattern", file.display())]
+    #[error("surface.file: {}: the mesh has no face that could carry a pattern{hint}", file.display())]
     NoFaces {
         /// The file.
         file: PathBuf,
+        /// What the file has instead.
+        hint: String,
     },
 }
 

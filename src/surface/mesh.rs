@@ -1,21 +1,20 @@
-//! The surface of a triangle or quad mesh: points go to the closest point of it.
+//! The surface of a triangle or quad mesh: points go to the closest point of what is seen of it from above.
 
 use super::error::SurfaceError;
-use super::tree::TriangleTree;
+use super::skin::Skin;
+use super::triangle::{Triangle, square, sub, vector_area};
 use super::{Surface, SurfaceKind};
 use crate::io::obj::{self, ObjFile};
 use crate::io::{Input, LengthUnit, ReadError};
 use std::path::Path;
 
-/// A mesh as a surface. Quads are cut along their shorter diagonal; vertices may be unwelded.
+/// A mesh as a surface: its upper skin. Quads are cut along their shorter diagonal; vertices may be unwelded, faces wound either
+/// way.
 #[derive(Clone, Debug)]
 pub struct MeshSurface {
-    tree: TriangleTree,
-    /// Unit normal of each triangle, on the whole upwards.
-    normals: Vec<[f64; 3]>,
-    bounds: [[f64; 2]; 2],
-    /// How far in plan the mesh reaches beyond its edges: exporters round to millimetres (ECOSYSTEM §3b).
-    tolerance: f64,
+    skin: Skin,
+    /// What to say where it does not reach: that most of it faces y, as the roofs of files with y up do.
+    hint: String,
 }
 
 impl MeshSurface {
@@ -23,40 +22,31 @@ impl MeshSurface {
     ///
     /// # Errors
     /// A line at fault; a file without faces.
-    pub fn read(input: Input<'_>, unit: LengthUnit) -> Result<Self, SurfaceError> {
-        let obj = obj::read(input, unit)?;
-        check_faces(&obj, input.file)?;
-        Self::new(&obj.vertices, &obj.faces)
-            .ok_or_else(|| SurfaceError::NoFaces { file: input.file.to_owned() })
+    pub fn read(Input { file, bytes }: Input<'_>, unit: LengthUnit) -> Result<Self, SurfaceError> {
+        let obj = obj::read(Input { file, bytes }, unit)?;
+        check_faces(&obj, file)?;
+        let no_faces = || SurfaceError::NoFaces { file: file.to_owned(), hint: obj.hint() };
+        let mut surface = Self::new(&obj.vertices, &obj.faces).ok_or_else(no_faces)?;
+        if !surface.hint.is_empty() {
+            let line = obj.face_lines.first().copied().unwrap_or_default();
+            surface.hint = format!("; {}:{line}{}", file.display(), surface.hint.replacen(';', ":", 1));
+        }
+        Ok(surface)
     }
 
     /// A mesh from its triangles and quads; faces without area do not count. `None` if none is left.
     pub fn new(vertices: &[[f64; 3]], faces: &[Vec<u32>]) -> Option<Self> {
-        let mut triangles = Vec::new();
-        let mut normals = Vec::new();
-        let mut sum = [0.0; 3];
-        for corners in faces.iter().flat_map(|face| cut(vertices, face)) {
-            let n = vector_area(&corners);
-            let length = (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]).sqrt();
-            if length > 0.0 {
-                triangles.push(corners);
-                normals.push(n.map(|v| v / length));
-                sum = std::array::from_fn(|k| sum[k] + n[k]);
-            }
-        }
-        let tree = TriangleTree::new(&triangles)?;
-        if sum[2] < 0.0 {
-            normals.iter_mut().for_each(|n| *n = n.map(|v| -v));
-        }
-        let mut bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-        for p in triangles.iter().flatten() {
-            for k in 0..2 {
-                bounds[0][k] = bounds[0][k].min(p[k]);
-                bounds[1][k] = bounds[1][k].max(p[k]);
-            }
-        }
-        let size = (bounds[1][0] - bounds[0][0]).hypot(bounds[1][1] - bounds[0][1]);
-        Some(Self { tree, normals, bounds, tolerance: 1e-4 * size })
+        let triangles: Vec<Triangle> = faces.iter().flat_map(|face| cut(vertices, face)).collect();
+        let [_, y, z] = triangles
+            .iter()
+            .map(vector_area)
+            .fold([0.0; 3], |sum: [f64; 3], area| std::array::from_fn(|k| sum[k] + area[k].abs()));
+        let hint = if y > z {
+            "; most of the mesh faces y, as in files with y up: files are read with z up, so export it with z up"
+        } else {
+            ""
+        };
+        Some(Self { skin: Skin::new(triangles.into_iter())?, hint: hint.to_owned() })
     }
 }
 
@@ -76,23 +66,23 @@ fn check_faces(obj: &ObjFile, file: &Path) -> Result<(), SurfaceError> {
     Ok(())
 }
 
-/// The triangles of a face.
-fn cut(vertices: &[[f64; 3]], face: &[u32]) -> Vec<[[f64; 3]; 3]> {
+/// The triangles of a face. Where both diagonals of a quad are equally long, that from its least corner is taken, wherever the file
+/// begins.
+fn cut(vertices: &[[f64; 3]], face: &[u32]) -> Vec<Triangle> {
     let p = |i: usize| vertices[face[i] as usize];
-    let diagonal =
-        |i: usize, j: usize| (0..3).map(|k| (p(i)[k] - p(j)[k]) * (p(i)[k] - p(j)[k])).sum::<f64>();
+    let diagonal = |i: usize, j: usize| square(sub(p(i), p(j)));
+    let turned = || {
+        let (first, second) = (diagonal(0, 2), diagonal(1, 3));
+        let least = (1..4).fold(0, |least, i| if p(i) < p(least) { i } else { least });
+        let is_tie = (first - second).abs() <= 1e-9 * first.max(second);
+        if is_tie { least % 2 == 1 } else { second < first }
+    };
     match face.len() {
         3 => vec![[p(0), p(1), p(2)]],
-        4 if diagonal(1, 3) < diagonal(0, 2) => vec![[p(1), p(2), p(3)], [p(1), p(3), p(0)]],
+        4 if turned() => vec![[p(1), p(2), p(3)], [p(1), p(3), p(0)]],
         4 => vec![[p(0), p(1), p(2)], [p(0), p(2), p(3)]],
         _ => Vec::new(),
     }
-}
-
-/// Half the cross product of two sides.
-fn vector_area([a, b, c]: &[[f64; 3]; 3]) -> [f64; 3] {
-    let (u, v) = ([b[0] - a[0], b[1] - a[1], b[2] - a[2]], [c[0] - a[0], c[1] - a[1], c[2] - a[2]]);
-    [0.5 * (u[1] * v[2] - u[2] * v[1]), 0.5 * (u[2] * v[0] - u[0] * v[2]), 0.5 * (u[0] * v[1] - u[1] * v[0])]
 }
 
 impl Surface for MeshSurface {
@@ -101,32 +91,29 @@ impl Surface for MeshSurface {
     }
 
     fn height(&self, x: f64, y: f64) -> Option<f64> {
-        // Without the tolerance first: a fold or a neighbour just beside must not lift the height.
-        self.tree.highest(x, y, 0.0).or_else(|| self.tree.highest(x, y, self.tolerance))
+        self.skin.height(x, y)
     }
 
     fn project(&self, point: [f64; 3]) -> [f64; 3] {
-        self.tree.closest(point).point
+        self.skin.closest(point).point
     }
 
     fn normal(&self, point: [f64; 3]) -> [f64; 3] {
-        self.normals[self.tree.closest(point).triangle as usize]
+        self.foot(point).1
     }
 
     fn foot(&self, point: [f64; 3]) -> ([f64; 3], [f64; 3]) {
-        let closest = self.tree.closest(point);
-        (closest.point, self.normals[closest.triangle as usize])
+        let closest = self.skin.closest(point);
+        (closest.point, self.skin.normal(&closest))
     }
 
     fn extent(&self) -> String {
-        let [[x0, y0], [x1, y1]] = self.bounds;
-        let upright = x0 == x1 || y0 == y1;
-        let hint = if upright { "; it stands upright: files are read with z up" } else { "" };
-        format!("the mesh lies within x {x0} to {x1}, y {y0} to {y1}{hint}")
+        let [[x0, y0], [x1, y1]] = self.skin.bounds;
+        format!("the mesh lies within x {x0} to {x1}, y {y0} to {y1}{}", self.hint)
     }
 
     fn bounds(&self) -> Option<[[f64; 2]; 2]> {
-        Some(self.bounds)
+        Some(self.skin.bounds)
     }
 
     fn is_smooth(&self) -> bool {

@@ -14,8 +14,10 @@ mod mesh;
 pub mod params;
 mod plane;
 mod quadric;
+mod skin;
 mod sphere;
 mod tree;
+mod triangle;
 
 pub use error::SurfaceError;
 pub use great_court::GreatCourt;
@@ -23,7 +25,8 @@ pub use height::{HeightFunction, HeightSurface};
 
 pub use mesh::MeshSurface;
 pub use params::SurfaceParams;
-pub use tree::{Closest, TriangleTree};
+pub use tree::{Closest, Over, TriangleTree};
+pub use triangle::Triangle;
 
 use crate::io::Inputs;
 use quadric::{Quadric, Shape};

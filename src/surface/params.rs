@@ -76,7 +76,8 @@ pub enum SurfaceParams {
         #[schemars(extend("exclusiveMinimum" = 0))]
         radius_m: f64,
     },
-    /// A triangle or quad mesh from an OBJ file; the closest point counts.
+    /// A triangle or quad mesh from an OBJ file with z up: the closest point of what is seen of it from above counts, however faces
+    /// are wound; what lies below other faces and walls carry nothing.
     Mesh {
         /// The file, relative to the config.
         file: PathBuf,

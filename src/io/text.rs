@@ -1,0 +1,117 @@
+//! Bytes of a file as text: what editors, spreadsheets and shells put around it.
+
+use std::borrow::Cow;
+use std::path::Path;
+use std::{fs, io};
+
+/// The text of a file in UTF-8, or in UTF-16 with a byte order mark, as spreadsheets ("Unicode text") and PowerShell write it; without
+/// that mark.
+///
+/// # Errors
+/// The line (from 1) that is in another encoding, and what to do.
+pub fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, (usize, String)> {
+    if let Some(text) = utf16(bytes) {
+        return text.map(Cow::Owned);
+    }
+    let bytes = without_mark(bytes);
+    std::str::from_utf8(bytes).map(Cow::Borrowed).map_err(|error| {
+        let line = 1 + bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count();
+        (line, "not in UTF-8; save the file as UTF-8".to_owned())
+    })
+}
+
+/// The text of a file on the disk ([`decode`]).
+///
+/// # Errors
+/// It cannot be read, or is in another encoding; then the line is told.
+pub fn read(file: &Path) -> io::Result<String> {
+    owned(&fs::read(file)?)
+}
+
+/// As [`decode`], with the error as that of reading.
+///
+/// # Errors
+/// The bytes are in another encoding.
+pub fn owned(bytes: &[u8]) -> io::Result<String> {
+    let wrong = |(line, reason)| io::Error::new(io::ErrorKind::InvalidData, format!("line {line}: {reason}"));
+    decode(bytes).map(Cow::into_owned).map_err(wrong)
+}
+
+/// As [`decode`], but bytes that are not UTF-8 become `�`: comments and names may be in any encoding.
+///
+/// # Errors
+/// A file that is no text.
+pub fn decode_lossy(bytes: &[u8]) -> Result<Cow<'_, str>, (usize, String)> {
+    if let Some(text) = utf16(bytes) {
+        return text.map(Cow::Owned);
+    }
+    if let Some(at) = bytes.iter().position(|&byte| byte == 0) {
+        let line = 1 + bytes[..at].iter().filter(|&&byte| byte == b'\n').count();
+        return Err((
+            line,
+            "a zero byte: this is no text file, or one in UTF-16; save it as UTF-8".to_owned(),
+        ));
+    }
+    Ok(String::from_utf8_lossy(without_mark(bytes)))
+}
+
+fn without_mark(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes)
+}
+
+/// A text that begins with the byte order mark of UTF-16.
+fn utf16(bytes: &[u8]) -> Option<Result<String, (usize, String)>> {
+    let (rest, low_first) = match bytes {
+        [0xFF, 0xFE, rest @ ..] => (rest, true),
+        [0xFE, 0xFF, rest @ ..] => (rest, false),
+        _ => return None,
+    };
+    let unit = |pair: &[u8]| match low_first {
+        true => u16::from_le_bytes([pair[0], pair[1]]),
+        false => u16::from_be_bytes([pair[0], pair[1]]),
+    };
+    let units: Vec<u16> = rest.chunks_exact(2).map(unit).collect();
+    let whole = rest.len() % 2 == 0;
+    let text = String::from_utf16(&units).ok().filter(|_| whole);
+    Some(text.ok_or_else(|| (1, "a broken text in UTF-16; save the file as UTF-8".to_owned())))
+}
+
+/// The lines of a text, which may end in LF, CR LF or CR alone.
+pub fn lines(text: &str) -> impl Iterator<Item = &str> {
+    let mut rest = Some(text);
+    std::iter::from_fn(move || {
+        let text = rest?;
+        let Some(end) = text.find(['\n', '\r']) else {
+            rest = None;
+            return (!text.is_empty()).then_some(text);
+        };
+        let width = if text[end..].starts_with("\r\n") { 2 } else { 1 };
+        rest = Some(&text[end + width..]);
+        Some(&text[..end])
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_line_ends() {
+        let of = |text| lines(text).collect::<Vec<_>>();
+        assert_eq!(of("a\nb\r\nc\rd"), ["a", "b", "c", "d"]);
+        assert_eq!(of("a\r\r\nb\n"), ["a", "", "b"]);
+        assert_eq!(of(""), [""; 0]);
+    }
+
+    #[test]
+    fn encodings() {
+        assert_eq!(decode(b"\xEF\xBB\xBFa").unwrap(), "a");
+        assert_eq!(decode(b"\xFF\xFEa\0\xE9\0").unwrap(), "aé");
+        assert_eq!(decode(b"\xFE\xFF\0a\0\xE9").unwrap(), "aé");
+        assert_eq!(decode(b"a\nb\xE9").unwrap_err().0, 2);
+        assert_eq!(decode_lossy(b"a\xE9").unwrap(), "a\u{FFFD}");
+        for bytes in [&b"a\n\0"[..], b"\xFF\xFEa", b"\xFF\xFE\0\xD8"] {
+            assert!(decode_lossy(bytes).unwrap_err().1.contains("UTF-8"));
+        }
+    }
+}
