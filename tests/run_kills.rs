@@ -64,7 +64,7 @@ fn files(folder: &Path) -> impl Iterator<Item = String> {
 
 /// Lines of the journal so far.
 fn journalled(folder: &Path) -> usize {
-    fs::read(folder.join("evaluations.jsonl"))
+    fs::read(folder.join("evaluations.journal"))
         .map_or(0, |bytes| bytes.iter().filter(|b| **b == b'\n').count())
 }
 
@@ -188,7 +188,7 @@ fn run_with_small_files(folder: &Path, kilobytes: u32, more: &str) -> Output {
 #[test]
 fn a_write_error_ends_the_run_with_exit_1_and_it_goes_on_afterwards() {
     // In the journal, in the tables, and in the report.
-    for (kilobytes, file) in [(20, "evaluations.jsonl"), (300, "report.html")] {
+    for (kilobytes, file) in [(20, "evaluations.journal"), (300, "report.html")] {
         let folder = TempDir::new().unwrap();
         let output = run_with_small_files(folder.path(), kilobytes, "");
         assert_eq!(output.status.code(), Some(1), "{kilobytes} kB: {}", stderr(&output));

@@ -125,7 +125,7 @@ fn damaged_files_cost_time_but_not_a_byte() {
         "flipped" => bytes[at] ^= 4,
         _ => bytes.clear(),
     };
-    for file in ["checkpoint.json", "checkpoint.previous.json", "evaluations.jsonl"] {
+    for file in ["checkpoint.json", "checkpoint.previous.json", "evaluations.journal"] {
         for (k, what) in ["truncated", "flipped", "emptied"].into_iter().enumerate() {
             for round in 0..3 {
                 let folder = killed_after(70);
@@ -222,7 +222,7 @@ fn a_write_error_ends_the_run_which_resumes_when_it_is_gone() {
 #[cfg(target_os = "linux")]
 fn a_full_disk_is_named() {
     let folder = tempfile::tempdir().expect("folder");
-    std::os::unix::fs::symlink("/dev/full", folder.path().join("evaluations.jsonl")).expect("symlink");
+    std::os::unix::fs::symlink("/dev/full", folder.path().join("evaluations.journal")).expect("symlink");
     let error = Store::create(folder.path(), config()).expect_err("no space left");
     assert!(error.to_string().contains("No space left"), "{error}");
 }
@@ -300,7 +300,7 @@ fn without_a_checkpoint_to_go_on_from_a_run_warns_that_it_begins_again() {
         warned(&|folder| both.iter().for_each(|name| fs::write(folder.join(name), "{").expect("a file")));
     let [message] = spoilt.as_slice() else { panic!("{spoilt:?}") };
     let end =
-        "the run begins again from generation 0; the 70 evaluations in evaluations.jsonl are used again";
+        "the run begins again from generation 0; the 70 evaluations in evaluations.journal are used again";
     assert_eq!(*message, format!("neither checkpoint can be used: {end}"));
     let gone =
         warned(&|folder| both.iter().for_each(|name| fs::remove_file(folder.join(name)).expect("gone")));

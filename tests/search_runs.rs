@@ -145,6 +145,30 @@ fn a_search_that_stalls_or_runs_out_of_designs_ends() {
 }
 
 #[test]
+fn a_search_that_has_found_nothing_yet_does_not_stall() {
+    let generations = |reference: f64| {
+        let mut settings = settings(60);
+        settings.search.stall_generations = Some(2);
+        (settings.ideal, settings.reference) = (vec![0.0; 3], vec![reference; 3]);
+        let outcome = run_silently(&Counting::new(), &settings, 2);
+        (outcome.ended, outcome.generations)
+    };
+    // Out of reach: the hypervolume is 0 throughout.
+    let (ended, rows) = generations(0.01);
+    assert!(rows.iter().all(|row| row.hypervolume == Some(0.0)));
+    assert_eq!((ended, rows.len()), (Ended::Generations, 61));
+    // Within reach, but not at once.
+    let late = (1..40).map(|k| generations(0.2 * f64::from(k))).find(|(_, rows)| {
+        rows[0].hypervolume == Some(0.0) && rows.last().is_some_and(|row| row.hypervolume > Some(0.0))
+    });
+    let (ended, rows) = late.expect("some reference is reached late");
+    let volumes: Vec<f64> = rows.iter().filter_map(|row| row.hypervolume).collect();
+    let counted = volumes.windows(3).filter(|w| w[0] > 0.0 && w[0] == w[2]).count();
+    assert_eq!((ended, counted), (Ended::Stall, 1), "{volumes:?}");
+    assert!(volumes.iter().filter(|&&volume| volume == 0.0).count() > 0);
+}
+
+#[test]
 fn the_time_limit_ends_a_run_in_good_order() {
     let mut settings = settings(u32::MAX - 1);
     settings.search.minutes = Some(0.002);

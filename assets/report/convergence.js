@@ -5,7 +5,7 @@ function startConvergence() {
     share: g.evaluations > 0 ? (100 * g.feasible) / g.evaluations : null,
     newShare: shareOf(g, all[i - 1]) }));
   const charts = [
-    { title: "Hypervolume of the front", unit: "share of the reference box", key: "hypervolume", zero: false },
+    { title: "Hypervolume of the front", unit: "1 = the box from ideal to reference; more where designs are better than the ideal", key: "hypervolume", zero: false },
     { title: "Designs on the front", unit: "designs", key: "front", zero: true },
     { title: "Feasible among those evaluated in the generation", unit: "%", key: "newShare", zero: true },
     { title: "Duplicates refused in the generation", unit: "children", key: "duplicates_refused", zero: true, bars: true },

@@ -2,6 +2,7 @@
 
 function startFamilies() {
   const box = byId("families");
+  if (grouped) byId("families-text").textContent = "Designs that are near each other: the fewer strips have to be deleted from two designs until they are the same, the nearer they are. Groups are joined by the mean distance of their members until six are left. Singular vertices are given of one design of each, the most balanced.";
   function refresh() {
     const head = objectives.map((o) => `<th scope="col">best ${escapeHtml(o.label)}${o.unit ? ` <span class="unit">${escapeHtml(o.unit)}</span>` : ""}</th>`);
     const rows = families.map((family) => {

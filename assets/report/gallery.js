@@ -72,7 +72,7 @@ function startGallery() {
       item.classList.toggle("outside", !inside && !d.baseline);
       const text = metric ? withUnit(value(d, metric), metric) : `family ${d.family.letter}`;
       const caption = item.querySelector(".caption");
-      caption.innerHTML = `<b>${d.baseline ? "Baseline" : escapeHtml(d.id.slice(0, 6))}</b><span>${escapeHtml(text)}</span>`;
+      caption.innerHTML = `<b>${d.baseline ? "Baseline" : escapeHtml(d.id.slice(0, 7))}</b><span>${escapeHtml(text)}</span>`;
       item.firstChild.setAttribute("aria-label", `${nameOf(d)}, ${metric ? `${metric.label} ` : ""}${text}`);
       return item;
     }));

@@ -27,8 +27,8 @@ function startToolbar() {
   byId("next").addEventListener("click", () => step(1));
   byId("pin").addEventListener("click", () => togglePin(state.picked));
   const count = () => {
-    const others = frontDesigns.filter((d) => !d.baseline), n = others.filter(kept).length;
-    byId("kept").textContent = `${whole(n)} of ${plural(others.length, "design")} within the limits${state.family ? `, in family ${state.family.letter}` : ""}${designs.some((d) => d.baseline) ? "; and the baseline" : ""}`;
+    const n = frontDesigns.filter(kept).length, baseline = designs.find((d) => d.baseline);
+    byId("kept").textContent = `${whole(n)} of ${plural(frontDesigns.length, "design")} of the front within the limits${state.family ? ` and in family ${state.family.letter}` : ""}${!baseline ? "" : baseline.onFront ? ", the baseline being one of the front" : "; the baseline is shown beside them"}`;
     byId("clear").disabled = !state.limits.size && !state.family;
   };
   events.on("limits.count", count);
@@ -47,13 +47,18 @@ function paintKey() {
 /** The same limits as the brushes, by numbers and so by keyboard. */
 function startLimits() {
   const box = byId("limits");
-  const inputs = objectives.map((o) => ["least", "most"].map((end) => {
+  // Field text is plain ASCII: a typographic minus would leave it empty.
+  const typed = (v) => String(Number(v.toPrecision(6)));
+  const inputs = objectives.map((o) => ["least", "most"].map((end, k) => {
     const input = document.createElement("input");
-    Object.assign(input, { type: "number", step: "any", placeholder: d3.format(".4~r")(o[end] ?? 0) });
+    Object.assign(input, { type: "number", step: "any", placeholder: known(o[end]) ? typed(o[end]) : "" });
     input.setAttribute("aria-label", `${end} ${o.label}${o.unit ? ` in ${o.unit}` : ""}`);
     input.addEventListener("change", () => {
-      const [low, high] = inputs[objectives.indexOf(o)].map((i) => (i.value === "" ? null : Number(i.value)));
-      setLimit(o, low === null && high === null ? null : [low ?? o.least, high ?? o.most]);
+      if (input.validity.badInput) return;
+      // The other end stays as it is, and one that is left empty is no limit.
+      const limit = [...(limitOf(o) ?? [-Infinity, Infinity])];
+      limit[k] = input.value === "" ? [-Infinity, Infinity][k] : Number(input.value);
+      setLimit(o, limit);
       changed("limits");
     });
     return input;
@@ -67,8 +72,11 @@ function startLimits() {
   }
   events.on("limits.inputs", () => {
     for (const [i, o] of objectives.entries()) {
-      const limit = state.limits.get(o);
-      for (const [k, input] of inputs[i].entries()) input.value = limit ? d3.format(".4~r")(limit[k]) : "";
+      for (const [k, input] of inputs[i].entries()) {
+        const limit = limitOf(o)?.[k];
+        if (!Number.isFinite(limit)) input.value = "";
+        else if (input.value === "" || Number(input.value) !== limit) input.value = typed(limit);
+      }
     }
   });
 }

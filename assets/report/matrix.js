@@ -61,7 +61,7 @@ function startMatrix() {
 
   function upper(g, row, column, rowHeight) {
     const r = correlation(objectives[row], objectives[column]);
-    g.select("rect").style("fill", known(r) ? d3.interpolateRgbBasis(["#ec9a5c", "#f7f5ef", "#7db9dc"])((r + 1) / 2) : null).style("fill-opacity", 0.6);
+    g.select("rect").style("fill", known(r) ? d3.interpolateRgbBasis(["#ec9a5c", "#f7f5ef", "#7db9dc"])((r + 1) / 2) : null).style("fill-opacity", 0.6).classed("coloured", known(r));
     g.append("text").attr("class", "correlation").attr("x", cell / 2).attr("y", rowHeight / 2 + 5).attr("text-anchor", "middle")
       .text(known(r) ? `${r < -0.005 ? "−" : "+"}${Math.abs(r).toFixed(2)}` : "–")
       .append("title").text(`${objectives[row].label} and ${objectives[column].label}`);
@@ -114,7 +114,7 @@ function startMatrix() {
     }
   }
   function drawLimit(g, ox, oy, x, y) {
-    const [lx, ly] = [state.limits.get(ox), state.limits.get(oy)];
+    const [lx, ly] = [drawnLimit(ox), drawnLimit(oy)];
     const clip = (v, [a, b]) => Math.max(Math.min(a, b) - 4, Math.min(Math.max(a, b) + 4, v));
     const [x0, x1] = (lx ?? x.domain()).map((v) => clip(x(v), x.range()));
     const [y1, y0] = (ly ?? y.domain()).map((v) => clip(y(v), y.range()));

@@ -47,18 +47,17 @@ function mostBalanced(candidates) {
 }
 const balanced = mostBalanced(frontDesigns.filter((d) => !d.baseline)) ?? designs.find((d) => !d.baseline) ?? designs[0];
 
-// Families: the same singularities, but for convex corners, which come with the domain.
-const byValence = (counts, least = 0) => Object.entries(counts).map(([valence, n]) => [Number(valence), n]).filter(([valence]) => valence >= least)
-  .sort((a, b) => a[0] - b[0]);
+// Families: the same singularities, as `decode` counts them, or, where that makes too many, groups of designs a few strips apart.
+const byValence = (counts) => Object.entries(counts).map(([valence, n]) => [Number(valence), n]).sort((a, b) => a[0] - b[0]);
 function familyKey(singularities) {
   if (!singularities) return "";
-  return JSON.stringify([byValence(singularities.inner), byValence(singularities.boundary, 4), singularities.poles]);
+  return JSON.stringify([byValence(singularities.inner), byValence(singularities.boundary), singularities.poles]);
 }
 function familyText(singularities) {
   if (!singularities) return "not known";
   const { inner, boundary, poles } = singularities;
   const list = (counts) => counts.map(([valence, n]) => `${n} with ${valence} edges`).join(", ");
-  const [inside, around] = [byValence(inner), byValence(boundary, 4)];
+  const [inside, around] = [byValence(inner), byValence(boundary)];
   const parts = [inside.length && `inside ${list(inside)}`, around.length && `on the boundary ${list(around)}`, poles && `${poles} ${poles === 1 ? "pole" : "poles"}`];
   return parts.filter(Boolean).join("; ") || "no singularities";
 }
@@ -66,8 +65,15 @@ function familyText(singularities) {
 function letters(i) {
   return (i >= 26 ? letters(Math.floor(i / 26) - 1) : "") + String.fromCharCode(65 + (i % 26));
 }
-const families = d3.groups(designs, (d) => familyKey(d.singularities))
-  .map(([key, members]) => ({ key, members, text: familyText(members[0].singularities) }))
+const grouped = designs.some((d) => d.group !== null);
+/** What a family has in common, or, of a group, an example and how many kinds of singularities there are. */
+function describeFamily(members) {
+  const kinds = new Set(members.map((d) => familyKey(d.singularities))).size;
+  const text = familyText(mostBalanced(members).singularities);
+  return kinds > 1 ? `such as ${text}; ${kinds} kinds in all` : text;
+}
+const families = d3.groups(designs, (d) => (grouped ? String(d.group) : familyKey(d.singularities)))
+  .map(([key, members]) => ({ key, members, text: describeFamily(members) }))
   .sort((a, b) => b.members.length - a.members.length || d3.ascending(a.key, b.key))
   .map((family, i) => ({ ...family, letter: letters(i) }));
 for (const family of families) for (const design of family.members) design.family = family;
@@ -94,6 +100,11 @@ function ticksOf(scale, count = 5) {
 }
 const withUnit = (v, metric) => (known(v) && metric.unit ? `${number(v)}\u00a0${metric.unit}` : number(v));
 const unitLabel = (metric) => (metric.unit ? `${metric.label}, ${metric.unit}` : metric.label);
+/** 1st, 2nd, 3rd, 4th, 11th … */
+function ordinal(n) {
+  const ending = n % 100 >= 11 && n % 100 <= 13 ? "th" : ["th", "st", "nd", "rd"][n % 10] ?? "th";
+  return `${whole(n)}${ending}`;
+}
 const plural = (n, one, many = `${one}s`) => `${whole(n)} ${n === 1 ? one : many}`;
 const nameOf = (design) => (design.baseline ? `Baseline ${design.id}` : `Design ${design.id}`);
 
@@ -119,8 +130,15 @@ function kept(design) {
   }
   return true;
 }
+/** The limits of an objective, null where it has none; an end that is not limited is infinite. */
+const limitOf = (objective) => state.limits.get(objective) ?? null;
+/** The same as far as it can be drawn. */
+function drawnLimit(objective) {
+  const within = (v) => Math.max(objective.least, Math.min(objective.most, v));
+  return limitOf(objective)?.map(within) ?? null;
+}
 function setLimit(objective, range) {
-  if (range) state.limits.set(objective, range);
+  if (range?.some(Number.isFinite)) state.limits.set(objective, range);
   else state.limits.delete(objective);
 }
 function pick(design) {

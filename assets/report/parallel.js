@@ -29,6 +29,11 @@ function startParallel() {
     axis.each(function each(_, i) {
       d3.select(this).call(d3.axisLeft(scales[i]).ticks(narrow ? 4 : 6).tickSize(4).tickFormat(ticksOf(scales[i], narrow ? 4 : 6)));
     });
+    // A ground under each label, so that no line crosses it.
+    axis.selectAll(".tick").each(function each() {
+      const { x: left, y: top, width, height } = this.querySelector("text").getBBox();
+      d3.select(this).insert("rect", "text").attr("class", "ground").attr("x", left - 2).attr("y", top).attr("width", width + 4).attr("height", height);
+    });
     const title = axis.append("text").attr("class", "axis-title").attr("y", 14).attr("text-anchor", (_, i) => anchor(i, narrow)).attr("x", (_, i) => edge(i, narrow));
     title.selectAll("tspan").data((o, i) => (narrow ? o.label.split(" ") : [o.label]).map((text) => ({ text, x: edge(i, narrow) }))).join("tspan")
       .attr("x", (line) => line.x).attr("dy", (_, i) => (i ? "1.15em" : 0)).text((line) => line.text);
@@ -49,7 +54,7 @@ function startParallel() {
   function syncBrushes() {
     silent = true;
     axes.selectAll("g.brush").each(function each(o) {
-      const { brush, i } = this.brushOf, limit = state.limits.get(o), [low, high] = scales[i].range();
+      const { brush, i } = this.brushOf, limit = drawnLimit(o), [low, high] = scales[i].range();
       const clip = (v) => Math.max(high - 5, Math.min(low + 5, scales[i](v)));
       d3.select(this).call(brush.move, limit ? [clip(limit[1]), clip(limit[0])] : null);
     });

@@ -36,7 +36,7 @@ function startShortlist() {
     const body = objectives.map((o) => `<tr><th scope="row" title="${escapeHtml(o.meaning)}">${escapeHtml(o.label)} <span class="muted">1.00 = ${escapeHtml(withUnit(o.most, o))}</span></th>${columns.map((d) => scoreCell(d, o, false)).join("")}</tr>`);
     const words = [
       ["Family", (d) => `${d.family.letter}`],
-      ["Singularities", (d) => escapeHtml(d.family.text)],
+      ["Singularities", (d) => escapeHtml(familyText(d.singularities))],
       ["String, expressed", (d) => stringOf(d.expressed)],
     ].map(([name, text]) => `<tr class="words-row"><th scope="row">${name}</th>${columns.map((d) => `<td>${text(d)}</td>`).join("")}</tr>`);
     box.innerHTML = `<table class="figure24"><thead><tr><td></td>${head.join("")}</tr></thead><tbody>${body.join("")}${words.join("")}</tbody></table>`;
@@ -108,13 +108,13 @@ function startPicked() {
       const r = relative(d, o), rank = place(d, o);
       const bar = r === null ? "" : `<span class="bar" style="--at:${(100 * r).toFixed(1)}%"></span>`;
       return `<tr><th scope="row" title="${escapeHtml(o.meaning)}">${escapeHtml(o.label)}</th><td class="num">${escapeHtml(withUnit(value(d, o), o))}</td><td class="bar-cell">${bar}</td>
-        <td class="rank">${rank === null ? "" : d.onFront ? `${whole(rank)}. of ${whole(frontDesigns.length)}` : frontDesigns.length ? `${whole(rank - 1)} better` : ""}</td></tr>`;
+        <td class="rank">${rank === null ? "" : d.onFront ? `${ordinal(rank)} of ${whole(frontDesigns.length)}` : frontDesigns.length ? `${whole(rank - 1)} better` : ""}</td></tr>`;
     });
     const others = facts.metrics.map((m, i) => [m, d.values[i]]).filter(([, v], i) => known(v) && !facts.objectives.includes(i))
       .map(([m, v]) => `<tr><th scope="row" title="${escapeHtml(m.meaning)}">${escapeHtml(m.label)}</th><td class="num">${escapeHtml(withUnit(v, m))}</td></tr>`);
     const files = d.onFront || facts.misses.some((m) => m.id === d.id) ? facts.design_files.map((ending) => `<a href="designs/${encodeURIComponent(d.id)}${escapeHtml(ending)}">${escapeHtml(ending.replace(/^[._]/, ""))}</a>`).join(" ") : "";
     const standing = d.baseline || !d.onFront ? (d.onFront ? "On the front itself." : d.feasible ? "Feasible, but dominated." : `Not feasible${d.reason ? `: ${escapeHtml(d.reason)}` : ""}.`) : d === balanced ? "Nearest to the best of all objectives at once." : "";
-    box.innerHTML = `<p class="standing">Family ${d.family.letter}: ${escapeHtml(d.family.text)} · generation ${d.generation}. ${standing}</p>
+    box.innerHTML = `<p class="standing">Family ${d.family.letter}: ${escapeHtml(familyText(d.singularities))} · generation ${d.generation}. ${standing}</p>
       <table class="values"><tbody>${rows.join("")}</tbody></table>
       <p class="strings"><span>String</span> ${stringOf(d.string)}${d.expressed !== d.string ? `<br><span>of it expressed</span> ${stringOf(d.expressed)}` : ""}</p>
       ${files ? `<p class="files"><span>Files beside this page</span> ${files}</p>` : ""}

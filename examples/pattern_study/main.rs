@@ -17,7 +17,7 @@ use quadrille::geometry::params::Pinched;
 use quadrille::geometry::{Pattern, Shaped, check, develop, limits, shape, topological_rejection};
 use quadrille::grammar::Tokens;
 use quadrille::mesh::CanonicalMesh;
-use quadrille::output::svg::{Shade, svg};
+use quadrille::output::svg::{Plan, Shade, svg};
 use quadrille::random::stream;
 use quadrille::search::operators::Growth;
 use quadrille::search::params::{Initialiser, TokenBounds};
@@ -235,8 +235,11 @@ fn draw(
     for panel in check::folded_panels(&pattern, study.surface.as_ref()) {
         values[panel as usize] = 1.0;
     }
-    let shade = Shade { label: "folded", values: &values, darkest: 1.0 };
+    let shade = Some(Shade { label: "folded", values: &values, darkest: 1.0 });
     let title = format!("{} {}", row.tokens, row.broken);
-    std::fs::write(folder.join(format!("{name}.svg")), svg(&pattern, &title, Some(&shade)))?;
+    std::fs::write(
+        folder.join(format!("{name}.svg")),
+        svg(&pattern, &title, &Plan { shade, ..Plan::default() }),
+    )?;
     Ok(())
 }

@@ -4,7 +4,7 @@ use super::config_args::ConfigArgs;
 use super::{CliError, Console};
 use quadrille::mesh::CanonicalMesh;
 use quadrille::random::stream;
-use quadrille::search::{Evaluation, Normalisation, Problem};
+use quadrille::search::{Evaluation, Normalisation, Problem, thread_pool};
 use quadrille::study::{Effort, Study};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -36,9 +36,7 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     let study = args.config.study(&config)?;
     let topologies = different(&study, config.run.seed.unwrap_or(0), args.designs as usize);
     console.note(&format!("evaluating {} random designs", topologies.len()));
-    let pool =
-        rayon::ThreadPoolBuilder::new().num_threads(args.threads.unwrap_or(config.run.threads)).build();
-    let pool = pool.map_err(|error| CliError::Failed(error.to_string()))?;
+    let pool = thread_pool(args.threads.unwrap_or(config.run.threads))?;
     let evaluate = |topology| study.evaluate_topology(topology, Effort::Everything);
     let evaluations: Vec<Evaluation> = pool.install(|| topologies.into_par_iter().map(evaluate).collect());
     let points = evaluations.iter().map(|e| &e.objectives[..]).filter(|objectives| !objectives.is_empty());

@@ -10,7 +10,7 @@ use quadrille::output::designs::id;
 use quadrille::output::number::significant;
 use quadrille::output::results::{DesignFiles, Developed};
 use quadrille::output::table::{Cell, Table};
-use quadrille::search::Evaluation;
+use quadrille::search::{Evaluation, thread_pool};
 use quadrille::structure::gridshell::Proof;
 use quadrille::study::{Effort, Reached, Study};
 use quadrille::surface::SurfaceKind;
@@ -37,7 +37,7 @@ pub struct Entry {
 pub type Save<'a> = dyn Fn(DesignFiles) -> Result<(), CliError> + Sync + 'a;
 
 impl Entry {
-    /// First 12 digits of its code.
+    /// Its id ([`id`]).
     pub fn id(&self) -> String {
         id(self.code)
     }
@@ -51,13 +51,14 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Evaluates all strings with every number that can be had; `save` gets the files of all that have a pattern.
+    /// Evaluates all strings on `threads` threads (0: one per core) with every number that can be had; `save` gets the files of all that have a pattern.
     ///
     /// # Errors
-    /// The first of `save`, in the order of the strings.
+    /// The first of `save`, in the order of the strings; or the system does not give the threads.
     pub fn of(
         study: &Study,
         named: Vec<(String, Tokens)>,
+        threads: usize,
         save: Option<&Save<'_>>,
     ) -> Result<Self, CliError> {
         let evaluate = |(name, tokens): (String, Tokens)| {
@@ -80,7 +81,8 @@ impl Comparison {
             };
             Ok(Entry { name, tokens, code, evaluation, has_pattern, form })
         };
-        let entries: Vec<Result<Entry, CliError>> = named.into_par_iter().map(evaluate).collect();
+        let all = || named.into_par_iter().map(evaluate).collect();
+        let entries: Vec<Result<Entry, CliError>> = thread_pool(threads)?.install(all);
         Ok(Self {
             entries: entries.into_iter().collect::<Result<_, _>>()?,
             objectives: study.objectives.iter().map(|objective| objective.name).collect(),
@@ -124,7 +126,7 @@ impl Comparison {
                 (0..METRICS.len())
                     .map(|m| Cell::from(self.value(entry, m).map(|value| number(value, self.largest(m))))),
             );
-            cells.push(evaluation.reason.clone().into());
+            cells.push(Cell::words(&evaluation.reason));
             table.rows.push(cells);
         }
         table

@@ -1,6 +1,7 @@
 //! What goes to stderr, and how much of it.
 
 use clap::{ArgAction, Args, ValueEnum};
+use std::ffi::OsStr;
 use std::io::{self, IsTerminal, Write};
 
 /// Options that every subcommand has.
@@ -21,10 +22,10 @@ pub struct ConsoleArgs {
 /// How progress is shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Progress {
-    /// A bar where stderr is a terminal, else plain.
+    /// A bar where stderr is a terminal that can redraw (TERM is not `dumb`, NO_COLOR not set), else plain.
     #[default]
     Auto,
-    /// A bar that redraws itself; plain where stderr is no terminal.
+    /// A bar that redraws itself; plain where stderr cannot.
     Bar,
     /// One line a generation.
     Plain,
@@ -45,7 +46,7 @@ impl Console {
     pub fn new(args: &ConsoleArgs) -> Self {
         let progress = match args.progress {
             Progress::Auto if args.quiet => Progress::None,
-            Progress::Auto | Progress::Bar if io::stderr().is_terminal() => Progress::Bar,
+            Progress::Auto | Progress::Bar if can_redraw() => Progress::Bar,
             Progress::Auto | Progress::Bar => Progress::Plain,
             chosen => chosen,
         };
@@ -92,6 +93,17 @@ impl Console {
     pub fn progress(&self) -> Progress {
         self.progress
     }
+}
+
+/// Whether stderr is a terminal that understands escape codes, and may be sent some.
+fn can_redraw() -> bool {
+    let set = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty());
+    io::stderr().is_terminal() && understands(set("TERM").as_deref()) && set("NO_COLOR").is_none()
+}
+
+/// Whether the terminal that TERM names understands escape codes; on Windows it has no name.
+fn understands(term: Option<&OsStr>) -> bool {
+    term.map_or(cfg!(windows), |term| term != "dumb")
 }
 
 /// One line on stderr. A reader that went away is no reason to fail.

@@ -2,6 +2,7 @@
 
 use super::exit;
 use quadrille::config::ConfigError;
+use quadrille::search::ThreadsError;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -31,6 +32,9 @@ pub enum CliError {
         /// What the system says.
         source: io::Error,
     },
+    /// The system does not give the threads.
+    #[error(transparent)]
+    Threads(#[from] ThreadsError),
     /// The work itself failed.
     #[error("{0}")]
     Failed(String),
@@ -53,7 +57,7 @@ impl CliError {
     pub fn exit_code(&self) -> ExitCode {
         ExitCode::from(match self {
             Self::Config(_) | Self::Input(_) | Self::Read { .. } => exit::WRONG_INPUT,
-            Self::Write { .. } | Self::Failed(_) => exit::FAILED,
+            Self::Write { .. } | Self::Threads(_) | Self::Failed(_) => exit::FAILED,
         })
     }
 }

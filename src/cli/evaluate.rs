@@ -8,7 +8,7 @@ use super::topology::parse_string;
 use super::{CliError, Console};
 use quadrille::grammar::Tokens;
 use quadrille::output::atomic;
-use quadrille::output::folder::{CHECKPOINT, DESIGNS, EVALUATION, JOURNAL, MANIFEST};
+use quadrille::output::folder::{CHECKPOINT, DESIGNS, EVALUATION, JOURNAL, JOURNAL_BEFORE, MANIFEST};
 use quadrille::output::results::DesignFiles;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -53,7 +53,8 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     let study = args.config.study(&config)?;
     let save = args.out.as_deref().map(Designs::below).transpose()?;
     let save = save.as_ref().map(|designs| |files: DesignFiles| designs.save(&files));
-    let comparison = Comparison::of(&study, named, save.as_ref().map(|save| save as &Save<'_>))?;
+    let comparison =
+        Comparison::of(&study, named, config.run.threads, save.as_ref().map(|save| save as &Save<'_>))?;
     out!("{}", comparison.to_text());
     let deviations = Deviations::of(&comparison);
     if let Some(deviations) = &deviations {
@@ -105,7 +106,7 @@ fn read_strings(file: &Path) -> Result<Vec<(String, Tokens)>, CliError> {
 
 /// A run's folder holds what the run found, and nothing else.
 fn refuse_results(folder: &Path) -> Result<(), CliError> {
-    match [MANIFEST, CHECKPOINT, JOURNAL].iter().find(|name| folder.join(name).exists()) {
+    match [MANIFEST, CHECKPOINT, JOURNAL, JOURNAL_BEFORE].iter().find(|name| folder.join(name).exists()) {
         None => Ok(()),
         Some(name) => Err(CliError::Input(format!(
             "--out {}: the results folder of a run (it has {name}); give another folder",

@@ -11,7 +11,7 @@ use quadrille::output::load::Loaded;
 use quadrille::output::number::significant;
 use quadrille::output::results::Developed;
 use quadrille::search::EvaluatedRow;
-use quadrille::structure::gridshell::{Detailed, Place, Proof};
+use quadrille::structure::gridshell::{Detailed, Metrics, Place, Proof};
 use std::fs;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -56,10 +56,16 @@ pub fn run(args: Args, _console: &Console) -> Result<ExitCode, CliError> {
     outln!("\nlimits of the pattern");
     for limit in &developed.design.limits {
         let state = if limit.excess > 0.0 { "EXCEEDED" } else { "kept" };
-        outln!("  {:<22} {:>12}  limit {:>10}  {state}", limit.name, significant(limit.value), limit.limit);
+        outln!(
+            "  {:<22} {:>12}  limit {:>10}  {state}",
+            limit.name,
+            significant(limit.value),
+            significant(limit.limit)
+        );
     }
     if let Some(results) = &developed.results {
         requirements(results, &developed.design.pattern.positions);
+        also(results, &developed.design.pattern.positions);
     }
     if let Some(picture) = explanation(&developed, &id(row.code)) {
         let path = args.picture(row);
@@ -107,7 +113,7 @@ fn requirements(results: &Detailed, positions: &[[f64; 3]]) {
             "  {:<22} {:>12}  {sign} {:<8} {:>4.0} % used, in {}, at {}",
             column(&requirement.quantity.to_string()),
             significant(requirement.value),
-            requirement.limit,
+            significant(requirement.limit),
             100.0 * requirement.used(),
             requirement.combination,
             describe(requirement.place, results, positions)
@@ -125,6 +131,27 @@ fn requirements(results: &Detailed, positions: &[[f64; 3]]) {
             outln!("{} governs: {:.0} % of its limit is used", governing.quantity, 100.0 * governing.used());
         }
         None => outln!("none is configured"),
+    }
+}
+
+/// What a structure must be told of, whether it is limited or not, where it is worst.
+fn also(results: &Detailed, positions: &[[f64; 3]]) {
+    type Of = fn(&Metrics) -> (f64, Place);
+    let quantities: [(&str, f64, Of); 3] = [
+        ("utilisation_von_mises", 1.0, |metrics| metrics.von_mises),
+        ("uplift", 1e-3, |metrics| metrics.uplift),
+        ("support_slide", 1.0, |metrics| metrics.slide),
+    ];
+    outln!("\nthe worst of all combinations");
+    for (name, unit, of) in quantities {
+        let all =
+            results.combinations.iter().map(|combination| (&combination.name, of(&combination.metrics)));
+        let Some((combination, (value, place))) = all.max_by(|a, b| a.1.0.total_cmp(&b.1.0)) else { return };
+        let place = match value > 0.0 {
+            true => format!("in {combination}, at {}", describe(place, results, positions)),
+            false => "none".into(),
+        };
+        outln!("  {:<22} {:>12}  {place}", column(name), significant(unit * value));
     }
 }
 

@@ -3,7 +3,7 @@
 use super::CliError;
 use quadrille::grammar::Tokens;
 use quadrille::mesh::Code;
-use quadrille::output::designs::id;
+use quadrille::output::designs::{digits, id};
 use quadrille::output::load::{Loaded, load};
 use quadrille::search::EvaluatedRow;
 use quadrille::study::Study;
@@ -33,13 +33,10 @@ pub fn open(folder: &Path) -> Result<(Loaded, Study), CliError> {
     Ok((loaded, study))
 }
 
-/// The evaluated design whose id begins with `text`.
+/// The evaluated design whose id begins with `text`, with its letter or, as in results of quadrille 0.1, without.
 pub fn find<'a>(loaded: &'a Loaded, text: &str) -> Result<&'a EvaluatedRow, CliError> {
-    let matching: Vec<&EvaluatedRow> = loaded
-        .evaluated
-        .iter()
-        .filter(|row| !text.is_empty() && row.code.to_string().starts_with(text))
-        .collect();
+    let begins = |row: &&EvaluatedRow| !text.is_empty() && row.code.to_string().starts_with(digits(text));
+    let matching: Vec<&EvaluatedRow> = loaded.evaluated.iter().filter(begins).collect();
     match matching.as_slice() {
         [one] => Ok(one),
         [] => {

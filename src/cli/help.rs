@@ -28,12 +28,12 @@ const EXAMPLES: &[(&str, &[&str])] = &[
     (
         "export",
         &[
-            "quadrille export results/roof --design 3f2a --format vtu --out exported",
-            "quadrille export results/roof --design 3f2a --format obj --pattern dual",
+            "quadrille export results/roof --design q3f2a --format vtu --out exported",
+            "quadrille export results/roof --design q3f2a --format obj --pattern dual",
         ],
     ),
-    ("explain", &["quadrille explain results/roof 3f2a"]),
-    ("verify", &["quadrille verify results/roof", "quadrille verify results/roof --design 3f2a"]),
+    ("explain", &["quadrille explain results/roof q3f2a"]),
+    ("verify", &["quadrille verify results/roof", "quadrille verify results/roof --design q3f2a"]),
     ("neighbours", &["quadrille neighbours roof.toml --string ATTA --out neighbours.csv"]),
     (
         "decode",

@@ -56,7 +56,7 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
         }
     }
     console.note(&format!("evaluating {} different designs one strip away", named.len() - 1));
-    let comparison = Comparison::of(&study, named, None)?;
+    let comparison = Comparison::of(&study, named, config.run.threads, None)?;
     let count = comparison.entries.len() - 1;
     let feasible = comparison.entries[1..].iter().filter(|e| e.evaluation.violation.is_feasible()).count();
     let meant = match tokens == expressed {

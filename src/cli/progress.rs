@@ -3,11 +3,13 @@
 use super::console::{Console, Progress as How};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use quadrille::config::Config;
+use quadrille::evolve::{Redundancy, redundancies};
 use quadrille::mesh::Code;
 use quadrille::output::designs::id;
+use quadrille::output::number::significant;
 use quadrille::output::obstacles::{Obstacles, initial_mesh};
 use quadrille::search::{Evaluation, GenerationRow, Observer, Progress};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// Shows the progress of a run on stderr.
 pub struct Display {
@@ -17,10 +19,15 @@ pub struct Display {
     limits: Limits,
     started: Instant,
     now: Option<Progress>,
+    /// The one under way.
+    generation: u32,
     front: u64,
     hypervolume: Option<f64>,
     /// What came of the designs before the end of the first generation.
     first: Obstacles,
+    /// Their objectives, as far as they have all of them; the names of these.
+    values: Vec<Vec<f64>>,
+    objectives: Vec<String>,
     /// Code of the initial mesh, and how it stands once that is known.
     baseline: Code,
     initial: Option<String>,
@@ -35,7 +42,6 @@ impl Display {
             let expected = limits.expected(0, 0);
             let bar = ProgressBar::with_draw_target(Some(expected), ProgressDrawTarget::stderr());
             bar.set_style(style());
-            bar.enable_steady_tick(Duration::from_millis(200));
             bar
         });
         Self {
@@ -45,9 +51,12 @@ impl Display {
             limits,
             started: Instant::now(),
             now: None,
+            generation: 0,
             front: 0,
             hypervolume: None,
             first: Obstacles::default(),
+            values: Vec::new(),
+            objectives: config.objectives.minimise.clone(),
             baseline,
             initial: None,
         }
@@ -72,8 +81,13 @@ impl Display {
         }
     }
 
-    /// What blocks designs, and how the initial mesh stands: early enough to change the config.
+    /// What blocks designs, how the initial mesh stands, and which objectives say nothing: early enough to change the
+    /// config.
     fn tell_first_generation(&self) {
+        for redundancy in redundancies(&self.values) {
+            let told = redundant(redundancy, &self.objectives, self.values.len());
+            self.beside_the_bar(|| self.console.warn(&told));
+        }
         if self.console.progress() != How::None {
             self.say(&self.first.first_generation());
             if let Some(initial) = &self.initial {
@@ -104,7 +118,12 @@ impl Display {
 
 impl Observer for Display {
     fn design(&mut self, code: Code, evaluation: &Evaluation) {
-        self.first.add(evaluation.violation, &evaluation.reason);
+        if self.generation == 0 {
+            self.first.add(evaluation.violation, &evaluation.reason);
+            if !evaluation.objectives.is_empty() {
+                self.values.push(evaluation.objectives.clone());
+            }
+        }
         if code == self.baseline {
             self.initial = Some(initial_mesh(evaluation.violation, &evaluation.reason));
         }
@@ -146,7 +165,9 @@ impl Observer for Display {
         }
         if row.generation == 0 {
             self.tell_first_generation();
+            self.values = Vec::new();
         }
+        self.generation = row.generation + 1;
         let breeding = &row.breeding;
         let told = format!(
             "  bred {}, duplicates refused {}, neighbours refused {}, rejected by topology {}, passed over by geometry {}, immigrants {}",
@@ -202,6 +223,31 @@ impl Limits {
             _ => u64::MAX,
         };
         by_generations.min(by_budget).max(evaluations)
+    }
+}
+
+/// What is said of objectives that add nothing, and what to do.
+fn redundant(redundancy: Redundancy, names: &[String], designs: usize) -> String {
+    let name = |m: usize| names.get(m).map_or("", String::as_str);
+    let designs = format!("all {designs} designs of the first generation");
+    match redundancy {
+        Redundancy::Constant { objective, value } => format!(
+            "objective \"{}\" is {} for {designs}: it tells none from another; leave it out",
+            name(objective),
+            significant(value)
+        ),
+        Redundancy::Dependent { objectives: [a, b], opposed: false } => format!(
+            "objectives \"{}\" and \"{}\" put {designs} in the same order, so one is a function of the other; \
+             leave one out",
+            name(a),
+            name(b)
+        ),
+        Redundancy::Dependent { objectives: [a, b], opposed: true } => format!(
+            "objectives \"{}\" and \"{}\" put {designs} in opposite orders, so one is a function of the other and no \
+             design is better than another in both; leave one out",
+            name(a),
+            name(b)
+        ),
     }
 }
 

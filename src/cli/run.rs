@@ -7,6 +7,7 @@ use super::quote::quote;
 use super::{CliError, Console, exit};
 use quadrille::config::{Config, to_toml};
 use quadrille::output::folder::{Folder, FolderError, Opening, REPORT};
+use quadrille::output::number::significant;
 use quadrille::output::obstacles::Obstacles;
 use quadrille::output::report;
 use quadrille::output::results::{self, Run, Sitting};
@@ -67,6 +68,8 @@ enum CsvDialect {
 pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     let mut config = args.config.load(&args.sets())?;
     let study = args.config.study(&config)?;
+    // Before the folder is touched: a run without threads leaves it as it was.
+    let server = ThreadServer::new(&study, config.run.threads)?;
     let folder = args.open_folder(&config)?;
     for warning in study.warnings() {
         console.warn(&warning);
@@ -76,7 +79,7 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
         results::record(&config, args.config.folder()).map_err(|e| CliError::Input(e.to_string()))?;
     let mut store = open_store(&folder, record, args.resume)?;
     let (started, clock) = (SystemTime::now(), Instant::now());
-    let (outcome, threads) = evolve(&study, &config, &mut store, console)?;
+    let (outcome, threads) = evolve(&study, server, &config, &mut store, console)?;
     let sitting = Sitting { started, seconds: clock.elapsed().as_secs_f64(), threads };
     let run = Run { study: &study, config: &config, config_folder: args.config.folder(), outcome: &outcome };
     let failed = |error: results::ResultsError| CliError::Failed(error.to_string());
@@ -173,6 +176,7 @@ fn open_store(folder: &Folder, record: serde_json::Value, resume: bool) -> Resul
 /// Runs the search; gives the outcome and the number of threads.
 fn evolve(
     study: &Study,
+    server: ThreadServer<'_, Study>,
     config: &Config,
     store: &mut Store,
     console: &Console,
@@ -187,7 +191,6 @@ fn evolve(
     };
     let stop = StopFlag::new();
     stop.install().map_err(|error| failed(&error))?;
-    let server = ThreadServer::new(study, config.run.threads).map_err(|error| failed(&error))?;
     let threads = match config.run.threads {
         0 => std::thread::available_parallelism().map_or(1, usize::from),
         threads => threads,
@@ -226,7 +229,7 @@ fn summarise(study: &Study, outcome: &Outcome, folder: &Folder, clock: Instant, 
         let values = outcome.front.iter().map(|&row| outcome.evaluated[row].objectives[i]);
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
         if low.is_finite() {
-            outln!("  {:<24} {low:>12.6} to {high:>12.6}", objective.column);
+            outln!("  {:<24} {:>12} to {:>12}", objective.column, significant(low), significant(high));
         }
     }
     if outcome.front.is_empty() {

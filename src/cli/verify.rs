@@ -7,7 +7,7 @@ use quadrille::objectives::METRICS;
 use quadrille::output::consistency::{Contradiction, contradictions};
 use quadrille::output::designs::id;
 use quadrille::output::load::Loaded;
-use quadrille::search::{EvaluatedRow, Evaluation, Problem, evaluate};
+use quadrille::search::{EvaluatedRow, Evaluation, Problem, evaluate, thread_pool};
 use quadrille::study::Study;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -45,7 +45,8 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
         }
         None => front(&loaded, &told),
     };
-    let found: Vec<Vec<String>> = rows.par_iter().map(|row| differences(&study, row)).collect();
+    let all = || rows.par_iter().map(|row| differences(&study, row)).collect();
+    let found: Vec<Vec<String>> = thread_pool(0)?.install(all);
     for contradiction in &told {
         outln!("{}", contradiction.message);
     }
@@ -79,7 +80,7 @@ fn front<'a>(loaded: &'a Loaded, told: &[Contradiction]) -> Vec<&'a EvaluatedRow
 /// Everything that is not what the file says.
 fn differences(study: &Study, row: &EvaluatedRow) -> Vec<String> {
     if !same_code(study, &row.tokens, row.code) {
-        return vec![format!("string {} no longer has code {}", row.tokens, row.code)];
+        return vec![format!("string {} no longer gives this design", row.tokens)];
     }
     let now = evaluate(study, &row.tokens).sanitised(study.objectives.len());
     let mut differences = words(row, &now, &study.identify(&row.tokens).expressed.to_string());

@@ -41,12 +41,7 @@ pub fn warnings(config: &Config) -> Vec<String> {
         }
     }
     if objectives.len() > 4 {
-        warnings.push(format!(
-            "{} objectives: with more than 4 most designs are non-dominated; the archive that parents come from is \
-             thinned by its grid of epsilon = {}",
-            objectives.len(),
-            config.search.archive.epsilon
-        ));
+        warnings.push(many_objectives(config));
     }
     if objectives.len() == 1 {
         warnings.push("one objective: the front will hold one design".into());
@@ -57,6 +52,27 @@ pub fn warnings(config: &Config) -> Vec<String> {
         );
     }
     warnings
+}
+
+/// What becomes of a front that holds most designs.
+fn many_objectives(config: &Config) -> String {
+    let (count, search) = (config.objectives.minimise.len(), &config.search);
+    let survivors = match search.survival.by_hypervolume(count) {
+        true => "which of them survive is decided by what they add to the hypervolume",
+        false => {
+            "which of them survive is decided by crowding alone, which does not tell good from bad (search.survival = \
+             \"auto\" takes the hypervolume)"
+        }
+    };
+    let archive = &search.archive;
+    let parents = match archive.parents > 0.0 {
+        true => format!(
+            "; {} of the parents come from the archive, which is thinned by its grid of epsilon = {}",
+            archive.parents, archive.epsilon
+        ),
+        false => String::new(),
+    };
+    format!("{count} objectives: with more than 4 most designs are non-dominated; {survivors}{parents}")
 }
 
 /// A sized height is the least that meets all requirements: one of them is met exactly.
@@ -275,7 +291,11 @@ fn describe_search(config: &Config) -> Vec<String> {
     let mut stops = vec![format!("{} generations", search.generations)];
     stops.extend(search.evaluations.map(|n| format!("{n} structural evaluations")));
     stops.extend(search.minutes.map(|minutes| format!("{minutes} minutes")));
-    stops.extend(search.stall_generations.map(|n| format!("{n} generations without a better front")));
+    stops.extend(
+        search
+            .stall_generations
+            .map(|n| format!("{n} generations without a better front, once there is one")),
+    );
     let seed = config.run.seed.map_or("drawn at random".to_owned(), |seed| seed.to_string());
     vec![
         format!(

@@ -275,9 +275,19 @@ impl Rules<'_> {
     fn objectives(&mut self, config: &Config) {
         let objectives = &config.objectives;
         let key = KeyPath::of("objectives.minimise");
-        let known: Vec<&str> = METRICS.iter().map(|metric| metric.name).collect();
+        let names = METRICS.iter().map(|metric| metric.name);
+        let known: Vec<&str> = names.filter(|name| objectives::better_large(name).is_none()).collect();
         for (i, name) in objectives.minimise.iter().enumerate() {
-            self.known(&key.index(i), "objective", name, &known);
+            match objectives::better_large(name) {
+                Some(instead) => {
+                    let message = format!(
+                        "found \"{name}\", which is better the larger it is, and objectives are minimised; did you mean \
+                         \"{instead}\"?"
+                    );
+                    self.refuse(key.index(i), message);
+                }
+                None => self.known(&key.index(i), "objective", name, &known),
+            }
             if objectives.minimise[..i].contains(name) {
                 self.refuse(
                     key.index(i),

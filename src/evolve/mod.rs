@@ -7,6 +7,7 @@
 mod archive;
 mod contribution;
 mod crowding;
+mod dependence;
 mod domination;
 mod hypervolume;
 mod nondominated;
@@ -16,6 +17,7 @@ mod sorting;
 
 pub use archive::EpsilonArchive;
 pub use crowding::crowding_distance;
+pub use dependence::{Redundancy, redundancies};
 pub use domination::{Domination, FAILED, Fitness, Violation, compare, compare_objectives};
 pub use hypervolume::hypervolume;
 pub use nondominated::NonDominated;

@@ -39,7 +39,7 @@ pub struct Metric {
     pub value: fn(&AnalysedDesign) -> Option<f64>,
 }
 
-/// Every metric, in the order of the CSV columns. All are minimised when they are objectives.
+/// Every metric, in the order of the CSV columns. All are minimised when they are objectives; see [`better_large`].
 pub const METRICS: &[&Metric] = &[
     &structural::MASS,
     &structural::DEFLECTION,
@@ -87,6 +87,17 @@ pub const METRICS: &[&Metric] = &[
     &fabrication::AREA_COVERED,
 ];
 
+/// What to minimise instead of a metric that is better large; `None` for all others.
+pub fn better_large(name: &str) -> Option<&'static str> {
+    match name {
+        "buckling_factor" => Some("buckling"),
+        "angle_min" => Some("skewness_max"),
+        "edge_min" => Some("edge_spread"),
+        "area_covered" => Some("boundary_gap"),
+        _ => None,
+    }
+}
+
 /// The metric of a name.
 pub fn find(name: &str) -> Option<&'static Metric> {
     METRICS.iter().copied().find(|metric| metric.name == name)
@@ -101,6 +112,13 @@ pub fn measure(design: &AnalysedDesign) -> Vec<Option<f64>> {
 mod tests {
     use super::*;
     use std::collections::BTreeSet;
+
+    #[test]
+    fn what_is_better_large_has_a_counterpart_that_is_better_small() {
+        let instead: Vec<&str> = METRICS.iter().filter_map(|metric| better_large(metric.name)).collect();
+        assert_eq!(instead.len(), 4, "a name of these is no longer that of a metric");
+        assert!(instead.iter().all(|name| find(name).is_some() && better_large(name).is_none()));
+    }
 
     #[test]
     fn names_and_columns_are_unique_and_carry_the_unit() {

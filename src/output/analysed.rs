@@ -122,8 +122,8 @@ impl<'a> Analysed<'a> {
             for combination in self.combinations() {
                 let forces = &combination.member_forces[m];
                 cells.extend([forces.start, forces.end].into_iter().flat_map(resultants).map(result));
-                let Utilisation { ends, inner, von_mises } = combination.member_utilisation[m];
-                cells.extend([ends, inner, von_mises].map(result));
+                let used = &combination.member_utilisation[m];
+                cells.extend([self.utilisation(used), used.inner, used.von_mises].map(result));
             }
             table.rows.push(cells);
         }
@@ -173,7 +173,7 @@ impl<'a> Analysed<'a> {
             fields.push(NamedField { name: "utilisation".into(), components: 1, values }.rounded());
         }
         for combination in self.combinations() {
-            fields.extend(member_fields(combination).map(NamedField::rounded));
+            fields.extend(self.member_fields(combination).map(NamedField::rounded));
         }
         let displacements = self.displacements(self.nodes().len());
         vtu(&Grid {
@@ -199,6 +199,26 @@ impl<'a> Analysed<'a> {
             values: translations(&mode.shape),
         });
         by_combination.chain(mode).map(NamedField::rounded).collect()
+    }
+
+    /// Mean axial force, largest bending moment of the two ends, utilisation as the metric counts it.
+    fn member_fields(&self, combination: &CombinationResult) -> [NamedField; 4] {
+        let forces = &combination.member_forces;
+        let scalar = |name: &str, values: Vec<f64>| NamedField {
+            name: format!("{}_{name}", combination.name),
+            components: 1,
+            values,
+        };
+        let worse = |a: f64, b: f64| if a.abs() >= b.abs() { a } else { b };
+        [
+            scalar("axial_force_n", forces.iter().map(|f| 0.5 * (f.start.n + f.end.n)).collect()),
+            scalar("moment_y_nm", forces.iter().map(|f| worse(f.start.my, f.end.my)).collect()),
+            scalar("moment_z_nm", forces.iter().map(|f| worse(f.start.mz, f.end.mz)).collect()),
+            scalar(
+                "utilisation",
+                combination.member_utilisation.iter().map(|used| self.utilisation(used)).collect(),
+            ),
+        ]
     }
 }
 
@@ -252,23 +272,6 @@ fn scalar<'a>(name: &'a str, values: &'a [f64]) -> Field<'a> {
 
 fn resultants(r: Resultants) -> [f64; 6] {
     [r.n, r.vy, r.vz, r.mt, r.my, r.mz]
-}
-
-/// Mean axial force, largest bending moment of the two ends, utilisation.
-fn member_fields(combination: &CombinationResult) -> [NamedField; 4] {
-    let forces = &combination.member_forces;
-    let scalar = |name: &str, values: Vec<f64>| NamedField {
-        name: format!("{}_{name}", combination.name),
-        components: 1,
-        values,
-    };
-    let worse = |a: f64, b: f64| if a.abs() >= b.abs() { a } else { b };
-    [
-        scalar("axial_force_n", forces.iter().map(|f| 0.5 * (f.start.n + f.end.n)).collect()),
-        scalar("moment_y_nm", forces.iter().map(|f| worse(f.start.my, f.end.my)).collect()),
-        scalar("moment_z_nm", forces.iter().map(|f| worse(f.start.mz, f.end.mz)).collect()),
-        scalar("utilisation", combination.member_utilisation.iter().map(|u| u.ends).collect()),
-    ]
 }
 
 fn reactions_by_node(combination: &CombinationResult, nodes: usize) -> Vec<[Option<f64>; 6]> {

@@ -1,6 +1,6 @@
 //! Whether the tables of a results folder say the same: `pareto.csv`, `history.csv`, and what their columns promise.
 
-use super::designs::{Columns, id};
+use super::designs::{Columns, Naming, id};
 use super::folder::{HISTORY, PARETO};
 use super::load::{LoadError, Loaded, Record, Sheet, row};
 use super::table::Cell;
@@ -29,16 +29,16 @@ pub fn contradictions(folder: &Path, loaded: &Loaded) -> Result<Vec<Contradictio
     let columns = Columns::of(&loaded.config.objectives.minimise);
     let of_history = columns.history_header();
     let mut found = header(folder, HISTORY, &of_history)?;
-    found.extend(rows(folder, HISTORY, &of_history, |record| {
+    found.extend(rows(folder, (HISTORY, loaded.naming), &of_history, |record| {
         let row = row(record, &columns)?;
         Ok((row.code, columns.history_cells(&row)))
     })?);
     found.extend(header(folder, PARETO, &columns.header())?);
     let places: BTreeMap<Code, &EvaluatedRow> = loaded.evaluated.iter().map(|row| (row.code, row)).collect();
-    found.extend(rows(folder, PARETO, &columns.header(), |record| {
+    found.extend(rows(folder, (PARETO, loaded.naming), &columns.header(), |record| {
         let code = row(record, &columns)?.code;
         let recorded =
-            places.get(&code).ok_or_else(|| record.wrong(format!("{code} is not in {HISTORY}")))?;
+            places.get(&code).ok_or_else(|| record.wrong(format!("{} is not in {HISTORY}", id(code))))?;
         Ok((code, columns.cells(recorded)))
     })?);
     found.extend(front(loaded, &columns));
@@ -66,7 +66,7 @@ fn header(folder: &Path, name: &str, promised: &[String]) -> Result<Vec<Contradi
 /// Compares each row of a table, cell by cell, with what `expect` says it holds.
 fn rows(
     folder: &Path,
-    name: &str,
+    (name, naming): (&str, Naming),
     header: &[String],
     expect: impl Fn(Record<'_>) -> Result<(Code, Vec<Cell>), LoadError>,
 ) -> Result<Vec<Contradiction>, LoadError> {
@@ -74,7 +74,7 @@ fn rows(
         let (code, expected) = expect(record)?;
         let mut told = Vec::new();
         for (column, cell) in header.iter().zip(&expected) {
-            let (expected, found) = (cell.text(), record.text(column)?);
+            let (expected, found) = (written(column, cell, naming), record.text(column)?);
             if !same(&expected, found) {
                 let (line, id) = (record.line(), id(code));
                 let (expected, found) = (shown(&expected), shown(found));
@@ -86,6 +86,14 @@ fn rows(
         Ok(told)
     })?;
     Ok(of_rows.into_iter().flatten().collect())
+}
+
+/// A cell as a folder writes it.
+fn written(column: &str, cell: &Cell, naming: Naming) -> String {
+    match column {
+        "id" | "code" => naming.apply(cell.text()),
+        _ => cell.text(),
+    }
 }
 
 /// Designs that are missing on the front, that do not belong there, or that are listed twice.

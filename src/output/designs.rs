@@ -20,9 +20,47 @@ pub struct Columns {
     pub metrics: Vec<String>,
 }
 
-/// A design's name: the first 12 hex digits of its placed + reduced code.
+/// What ids and codes begin with in files and on the terminal. No hex digit, so that no spreadsheet takes `642450766e43`
+/// for a number and loses its digits.
+const LETTER: char = 'q';
+
+/// A design's name: a `q` and the first 12 hex digits of its placed + reduced code.
 pub fn id(code: Code) -> String {
-    code.to_string().chars().take(12).collect()
+    written(code).chars().take(13).collect()
+}
+
+/// A code as the tables write it: a `q` and its first 16 hex digits.
+fn written(code: Code) -> String {
+    format!("{LETTER}{code}")
+}
+
+/// The hex digits of an id or code, or of the beginning of one: those of results of before have no letter.
+pub fn digits(id: &str) -> &str {
+    id.strip_prefix(LETTER).unwrap_or(id)
+}
+
+/// How a folder writes ids and codes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Naming {
+    /// Beginning with a letter.
+    Lettered,
+    /// As bare digits: results of quadrille 0.1.
+    Digits,
+}
+
+impl Naming {
+    /// As in the folder that `text`, an id or a code, was read from.
+    pub(crate) fn of(text: &str) -> Self {
+        if text.starts_with(LETTER) { Self::Lettered } else { Self::Digits }
+    }
+
+    /// An id or code as such a folder writes it.
+    pub(crate) fn apply(self, text: String) -> String {
+        match self {
+            Self::Lettered => text,
+            Self::Digits => digits(&text).to_owned(),
+        }
+    }
 }
 
 impl Columns {
@@ -64,7 +102,7 @@ impl Columns {
             id(row.code).into(),
             row.tokens.to_string().into(),
             row.expressed.to_string().into(),
-            row.code.to_string().into(),
+            written(row.code).into(),
             u64::from(row.generation).into(),
             row.is_feasible().into(),
         ];
@@ -78,7 +116,7 @@ impl Columns {
         let mut cells = self.cells(row);
         cells.push(u64::from(row.violation.stage).into());
         cells.push(row.violation.measure.into());
-        cells.push(row.reason.to_string().into());
+        cells.push(Cell::words(&row.reason));
         cells
     }
 
@@ -152,8 +190,8 @@ pub(super) mod tests {
         assert_eq!(
             text,
             "id,string,expressed,code,generation,feasible,mass_kg,curvature,buckling_factor\n\
-             000000000000,,,0000000000000002,3,true,1.5,1,\n\
-             000000000000,ATA,ATA,0000000000000001,3,true,2,0.5,\n"
+             q000000000000,\"\",\"\",q0000000000000002,3,true,1.5,1,\n\
+             q000000000000,ATA,ATA,q0000000000000001,3,true,2,0.5,\n"
         );
     }
 
@@ -166,7 +204,7 @@ pub(super) mod tests {
         let line = text.lines().nth(1).unwrap();
         assert_eq!(
             line,
-            "abc000000000,A*,A*,abc0000000000000,3,false,1000000,0.125,,1,0.25,\"too weak, \"\"badly\"\"\""
+            "qabc000000000,A*,A*,qabc0000000000000,3,false,1000000,0.125,,1,0.25,\"too weak, \"\"badly\"\"\""
         );
         assert!(text.lines().next().unwrap().ends_with("buckling_factor,violation_stage,violation,reason"));
     }

@@ -3,7 +3,7 @@
 
 use super::number::{rounded, significant};
 use super::results::Developed;
-use super::svg::{Frame, MARGIN, begin, escape, outline};
+use super::svg::{Frame, LINE, MARGIN, begin, escape, outline, support_key, supports};
 use crate::structure::gridshell::{CombinationResult, Detailed, Place};
 use std::fmt::Write;
 
@@ -13,7 +13,10 @@ const SHADES: usize = 8;
 const MODE_FROM: f64 = 0.3;
 /// Radius of the node that moves most in the mode.
 const MODE_RADIUS: f64 = 9.0;
-const LINE: f64 = 18.0;
+/// Room beside the plan for labels, which would hide members on it.
+const SIDE: f64 = 110.0;
+/// Least distance of labels above each other.
+const APART: f64 = 18.0;
 
 const STYLE: &str = "\
 .members path{fill:none;stroke-linecap:round}\
@@ -21,7 +24,7 @@ const STYLE: &str = "\
 .mode{fill:#0072b2;fill-opacity:.35;stroke:#0072b2;stroke-width:.8}\
 .governing{fill:none;stroke:#111;stroke-width:2}.member{stroke:#111;stroke-width:6;stroke-linecap:round}\
 .node{fill:none;stroke:#009e73;stroke-width:4}\
-text{font:13px sans-serif;fill:#111}.label{font-weight:bold;paint-order:stroke;stroke:#fff;stroke-width:4px}";
+text{font:13px sans-serif;fill:#111}.label{font-weight:bold}.leader{fill:none;stroke:#111;stroke-width:.8}";
 
 /// The plan of a design with what governs it, labelled; none where no structure is configured.
 ///
@@ -33,15 +36,24 @@ pub fn explanation(developed: &Developed, id: &str) -> Option<Vec<u8>> {
     let picture = Picture { developed, results, frame };
     let legend = picture.legend();
     let (width, height) = (picture.frame.width + 2.0 * MARGIN, picture.frame.height + 2.0 * MARGIN);
-    let mut text = begin(width, height + LINE * (legend.len() as f64 + 0.5), &format!("design {id}"), STYLE);
+    let held = developed.supports();
+    let lines = legend.len() as f64 + 1.5 + f64::from(u8::from(!held.is_empty()));
+    let mut text = begin(width + 2.0 * SIDE, height + LINE * lines, &developed.title(id), STYLE);
+    let _ = writeln!(text, "<g transform=\"translate({SIDE})\">");
     picture.members(&mut text);
     for boundary in &developed.design.pattern.loops {
         let path = outline(&picture.frame, &developed.design.pattern.positions, boundary);
         let _ = writeln!(text, "<path class=\"boundary\" d=\"{path}\"/>");
     }
+    supports(&mut text, &picture.frame, &held);
     picture.mode(&mut text);
-    picture.governing_member(&mut text);
-    picture.largest_deflection(&mut text);
+    let marked = [picture.governing_member(&mut text), picture.largest_deflection(&mut text)];
+    picture.labels(&mut text, marked.into_iter().flatten().collect());
+    text.push_str("</g>\n");
+    text.push_str(&picture.frame.scale_bar([MARGIN, height + LINE * legend.len() as f64]));
+    if !held.is_empty() {
+        text.push_str(&support_key([MARGIN, height + LINE * (legend.len() + 1) as f64]));
+    }
     for (index, Key { sample, words }) in legend.iter().enumerate() {
         let y = height + LINE * index as f64;
         let _ = writeln!(
@@ -58,6 +70,13 @@ pub fn explanation(developed: &Developed, id: &str) -> Option<Vec<u8>> {
 /// One line of the legend: a sample, centred on y = 0 within 100 units, and what it means.
 struct Key {
     sample: String,
+    words: String,
+}
+
+/// What is said of a mark, and where the mark is.
+struct Label {
+    mark: [f64; 2],
+    radius: f64,
     words: String,
 }
 
@@ -146,36 +165,49 @@ impl Picture<'_> {
         }
     }
 
-    fn governing_member(&self, text: &mut String) {
-        let Some((_, edge)) = self.governing() else { return };
+    /// Marks the member that governs; its place and name.
+    fn governing_member(&self, text: &mut String) -> Option<Label> {
+        let (_, edge) = self.governing()?;
         let [a, b] = self.developed.design.pattern.edges[edge as usize].map(|node| self.at(node));
         let [x, y] = [0, 1].map(|axis| 0.5 * (a[axis] + b[axis]));
         let ends = [a, b].map(|[x, y]| format!("{} {}", rounded(x, 1), rounded(y, 1)));
         let _ = writeln!(text, "<path class=\"member\" d=\"M{}L{}\"/>", ends[0], ends[1]);
         let (cx, cy) = (rounded(x, 1), rounded(y, 1));
         let _ = writeln!(text, "<circle class=\"governing\" cx=\"{cx}\" cy=\"{cy}\" r=\"16\"/>");
-        self.label(text, [x, y], &format!("member {edge}"));
+        Some(Label { mark: [x, y], radius: 16.0, words: format!("member {edge}") })
     }
 
-    fn largest_deflection(&self, text: &mut String) {
-        let Some((_, _, node)) = self.deflection() else { return };
+    /// Marks the node that moves most; its place and name.
+    fn largest_deflection(&self, text: &mut String) -> Option<Label> {
+        let (_, _, node) = self.deflection()?;
         let [x, y] = self.at(node);
         let (cx, cy) = (rounded(x, 1), rounded(y, 1));
         let _ = writeln!(text, "<circle class=\"node\" cx=\"{cx}\" cy=\"{cy}\" r=\"12\"/>");
-        self.label(text, [x, y], &format!("node {node}"));
+        Some(Label { mark: [x, y], radius: 12.0, words: format!("node {node}") })
     }
 
-    /// Beside a mark, on the side where there is room.
-    fn label(&self, text: &mut String, [x, y]: [f64; 2], words: &str) {
-        let right = x > MARGIN + 0.8 * self.frame.width;
-        let (x, anchor) = if right { (x - 20.0, "end") } else { (x + 20.0, "start") };
-        let _ = writeln!(
-            text,
-            "<text class=\"label\" x=\"{}\" y=\"{}\" text-anchor=\"{anchor}\">{}</text>",
-            rounded(x, 1),
-            rounded(y + 5.0, 1),
-            escape(words)
-        );
+    /// Names marks beside the plan, on the nearer side, with a line to each.
+    fn labels(&self, text: &mut String, mut labels: Vec<Label>) {
+        labels.sort_by(|a, b| a.mark[1].total_cmp(&b.mark[1]));
+        let mut lowest = [f64::NEG_INFINITY; 2];
+        for Label { mark: [x, y], radius, words } in labels {
+            let right = x > MARGIN + 0.5 * self.frame.width;
+            let at = y.max(lowest[usize::from(right)] + APART);
+            lowest[usize::from(right)] = at;
+            let (end, anchor, sign) = match right {
+                true => (self.frame.width + 2.0 * MARGIN, "start", 1.0),
+                false => (0.0, "end", -1.0),
+            };
+            let place = |[x, y]: [f64; 2]| format!("{} {}", rounded(x, 1), rounded(y, 1));
+            let (from, to) = (place([x + sign * radius, y]), place([end, at]));
+            let [x, y] = [end + 5.0 * sign, at + 4.5].map(|coordinate| rounded(coordinate, 1));
+            let _ = writeln!(
+                text,
+                "<path class=\"leader\" d=\"M{from}L{to}\"/><text class=\"label\" x=\"{x}\" y=\"{y}\" \
+                 text-anchor=\"{anchor}\">{}</text>",
+                escape(&words)
+            );
+        }
     }
 
     fn legend(&self) -> Vec<Key> {

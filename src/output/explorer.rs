@@ -47,6 +47,6 @@ mod tests {
         let column = |metric, name: &str| Column { metric, name: name.into() };
         let table = design_explorer(&[&design], &[column(0, "strips")], &[column(2, "mass[kg]")]);
         let text = String::from_utf8(table.to_csv()).unwrap();
-        assert_eq!(text, "in:tokens,in:strips,out:mass[kg],img\n4,0.125,1000000,abc000000000.svg\n");
+        assert_eq!(text, "in:tokens,in:strips,out:mass[kg],img\n4,0.125,1000000,qabc000000000.svg\n");
     }
 }

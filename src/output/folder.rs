@@ -1,7 +1,7 @@
 //! The results folder: where each file is, who may write, and whether a run is finished.
 
 use super::atomic;
-use super::manifest::{Manifest, Status};
+use super::manifest::{Manifest, ManifestError, Status};
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -31,7 +31,9 @@ pub const DESIGN_EXPLORER: &str = "design_explorer";
 /// Folder of the pictures that `explain` draws.
 pub const EXPLAINED: &str = "explained";
 /// Every evaluation of a run, as they come.
-pub const JOURNAL: &str = "evaluations.jsonl";
+pub const JOURNAL: &str = "evaluations.journal";
+/// Its name in runs of quadrille 0.1, which go on with it.
+pub const JOURNAL_BEFORE: &str = "evaluations.jsonl";
 const LOCK: &str = ".lock";
 
 /// Why a results folder cannot be used.
@@ -53,6 +55,14 @@ pub enum FolderError {
         path: PathBuf,
         /// The file or folder in it.
         name: &'static str,
+    },
+    /// A later program wrote it: what is whose cannot be told.
+    #[error("{}: {reason}; or give another --out", path.display())]
+    Newer {
+        /// The manifest.
+        path: PathBuf,
+        /// Whose it is.
+        reason: ManifestError,
     },
     /// There is nothing to go on with.
     #[error("{} holds no checkpoint to resume", .0.display())]
@@ -100,6 +110,7 @@ impl Folder {
         if opening == Opening::Resume && !lock_path.exists() && !has_checkpoint(path) {
             return Err(FolderError::NoCheckpoint(path.to_path_buf()));
         }
+        refuse_newer(path)?;
         fs::create_dir_all(path).map_err(io(path))?;
         let lock = File::create(&lock_path).map_err(io(&lock_path))?;
         match lock.try_lock() {
@@ -147,6 +158,7 @@ impl Folder {
             CHECKPOINT,
             CHECKPOINT_PREVIOUS,
             JOURNAL,
+            JOURNAL_BEFORE,
             REPORT,
         ];
         let excel = [PARETO, HISTORY, GENERATIONS, OPERATORS].map(excel_name);
@@ -221,8 +233,24 @@ impl Folder {
     }
 }
 
+/// Refuses the folder of a later program, also to be overwritten.
+fn refuse_newer(folder: &Path) -> Result<(), FolderError> {
+    let path = folder.join(MANIFEST);
+    match fs::read(&path).map(|bytes| Manifest::parse(&bytes)) {
+        Ok(Err(reason @ ManifestError::Newer { .. })) => Err(FolderError::Newer { path, reason }),
+        _ => Ok(()),
+    }
+}
+
 fn has_checkpoint(folder: &Path) -> bool {
-    [CHECKPOINT, CHECKPOINT_PREVIOUS, JOURNAL].iter().any(|name| folder.join(name).exists())
+    [CHECKPOINT, CHECKPOINT_PREVIOUS].iter().any(|name| folder.join(name).exists())
+        || journal(folder).exists()
+}
+
+/// The journal of a folder: a run that was begun under its old name keeps it.
+pub fn journal(folder: &Path) -> PathBuf {
+    let [path, before] = [JOURNAL, JOURNAL_BEFORE].map(|name| folder.join(name));
+    if before.exists() && !path.exists() { before } else { path }
 }
 
 /// The name of a table's copy for a spreadsheet with decimal commas: `pareto.csv` → `pareto.excel-eu.csv`.

@@ -1,12 +1,13 @@
 //! A results folder read back: what `report`, `export`, `verify` and `explain` start from.
 
-use super::designs::{Columns, FIRST, LAST};
-use super::folder::{CHECKPOINT, EVALUATION, GENERATIONS, HISTORY, JOURNAL, MANIFEST, PARETO};
+use super::designs::{Columns, FIRST, LAST, Naming, digits, id};
+use super::folder::{self, CHECKPOINT, EVALUATION, GENERATIONS, HISTORY, MANIFEST, PARETO};
 use super::manifest::Manifest;
 use crate::config::Config;
 use crate::evolve::Violation;
 use crate::mesh::canonical::Code;
 use crate::search::{Breeding, EvaluatedRow, GenerationRow};
+use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::BufReader;
@@ -54,6 +55,8 @@ pub struct Loaded {
     pub front: Vec<usize>,
     /// Every generation, as in `generations.csv`.
     pub generations: Vec<GenerationRow>,
+    /// How the tables and the names of the files in `designs/` write ids.
+    pub naming: Naming,
 }
 
 /// Reads a results folder.
@@ -66,20 +69,24 @@ pub fn load(folder: &Path) -> Result<Loaded, LoadError> {
         return Err(LoadError::NotARun { folder: folder.to_path_buf() });
     }
     let wrong = |message: String| LoadError::Format { path: path.clone(), message };
-    let manifest: Manifest =
-        serde_json::from_slice(&read(&path)?).map_err(|error| wrong(error.to_string()))?;
+    let manifest = Manifest::parse(&read(&path)?).map_err(|error| wrong(error.to_string()))?;
     let config: Config =
         toml::from_str(&manifest.config).map_err(|error| wrong(format!("config: {}", error.message())))?;
     let columns = Columns::of(&config.objectives.minimise);
-    let evaluated = Sheet::each(folder, HISTORY, |record| row(record, &columns))?;
+    let naming = Cell::new(Naming::Lettered);
+    let evaluated = Sheet::each(folder, HISTORY, |record| {
+        let row = row(record, &columns)?;
+        naming.set(Naming::of(record.text("code")?));
+        Ok(row)
+    })?;
     let places: BTreeMap<Code, usize> = evaluated.iter().enumerate().map(|(i, row)| (row.code, i)).collect();
     let front = Sheet::each(folder, PARETO, |record| {
         let code = row(record, &columns)?.code;
-        places.get(&code).copied().ok_or_else(|| record.wrong(format!("{code} is not in {HISTORY}")))
+        places.get(&code).copied().ok_or_else(|| record.wrong(format!("{} is not in {HISTORY}", id(code))))
     })?;
     let generations = Sheet::each(folder, GENERATIONS, |record| generation(record, &columns))?;
     let config_folder = PathBuf::from(&manifest.config_folder);
-    Ok(Loaded { manifest, config, config_folder, evaluated, front, generations })
+    Ok(Loaded { manifest, config, config_folder, evaluated, front, generations, naming: naming.get() })
 }
 
 /// What a folder without a manifest is, and what to do.
@@ -87,7 +94,7 @@ fn cure(folder: &Path) -> &'static str {
     if folder.join(EVALUATION).exists() {
         "`evaluate` wrote it, and its designs are in designs/ already; to have them in a run's folder, give their \
          strings as search.initial.seeds"
-    } else if folder.join(CHECKPOINT).exists() || folder.join(JOURNAL).exists() {
+    } else if folder.join(CHECKPOINT).exists() || folder::journal(folder).exists() {
         "the run there is unfinished: end it with `quadrille run CONFIG --resume`"
     } else {
         "give the folder that `run` wrote"
@@ -185,9 +192,12 @@ impl<'a> Record<'a> {
 pub(super) fn row(record: Record<'_>, columns: &Columns) -> Result<EvaluatedRow, LoadError> {
     let [_, string, expressed, code, generation, _] = FIRST;
     let [stage, measure, reason] = LAST;
-    let digits = record.text(code)?;
-    let bits =
-        u64::from_str_radix(digits, 16).map_err(|_| record.wrong(format!("code: found \"{digits}\"")))?;
+    let bits = u64::from_str_radix(digits(record.text(code)?), 16).map_err(|_| {
+        record.wrong(format!(
+            "code: found \"{}\"; allowed: q and 16 hex digits",
+            record.text(code).unwrap_or_default()
+        ))
+    })?;
     let objectives = record.numbers(&columns.objectives)?;
     let in_history = record.sheet.columns.contains_key(stage);
     let violation = match in_history {

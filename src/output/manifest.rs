@@ -8,6 +8,26 @@ use std::time::{SystemTime, UNIX_EPOCH};
 /// Version of the manifest's own layout.
 pub const VERSION: u32 = 1;
 
+/// Why a manifest cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum ManifestError {
+    /// A later program wrote it.
+    #[error(
+        "written by quadrille {program} with manifest_version {found}; this is quadrille {}, which reads up to \
+         {VERSION}: take that version of the program, or a later one",
+        env!("CARGO_PKG_VERSION")
+    )]
+    Newer {
+        /// The version of the layout.
+        found: u64,
+        /// The version of the program, as it says.
+        program: String,
+    },
+    /// It is not what the program writes.
+    #[error(transparent)]
+    Format(#[from] serde_json::Error),
+}
+
 /// The manifest of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
@@ -105,7 +125,23 @@ impl Host {
 impl Manifest {
     /// The manifest of a results folder, if it has one that can be read.
     pub fn read(folder: &Path) -> Option<Self> {
-        serde_json::from_slice(&std::fs::read(folder.join(super::folder::MANIFEST)).ok()?).ok()
+        Self::parse(&std::fs::read(folder.join(super::folder::MANIFEST)).ok()?).ok()
+    }
+
+    /// The manifest in a file.
+    ///
+    /// # Errors
+    /// [`ManifestError`]; the version is looked at first, since nothing else need be there in a later one.
+    pub fn parse(bytes: &[u8]) -> Result<Self, ManifestError> {
+        let manifest: serde_json::Value = serde_json::from_slice(bytes)?;
+        match manifest["manifest_version"].as_u64() {
+            Some(found) if found > u64::from(VERSION) => {
+                let program = manifest["program_version"].as_str().unwrap_or("of a later version").to_owned();
+                Err(ManifestError::Newer { found, program })
+            }
+            // Read from the bytes once more: errors then tell line and column.
+            _ => Ok(serde_json::from_slice(bytes)?),
+        }
     }
 
     /// The file.
@@ -172,6 +208,15 @@ mod tests {
     fn reads_what_it_writes() {
         let manifest = Manifest::sample(Status::Finished);
         assert_eq!(serde_json::from_slice::<Manifest>(&manifest.to_json()).unwrap(), manifest);
+    }
+
+    #[test]
+    fn a_later_version_is_told_whatever_else_it_holds() {
+        let later = br#"{"manifest_version": 7, "program_version": "3.1.0"}"#;
+        let told = Manifest::parse(later).unwrap_err().to_string();
+        assert!(told.contains("quadrille 3.1.0 with manifest_version 7"), "{told}");
+        let broken = Manifest::parse(br#"{"manifest_version": 1}"#).unwrap_err();
+        assert!(matches!(broken, ManifestError::Format(_)), "{broken}");
     }
 
     #[test]

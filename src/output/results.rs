@@ -10,12 +10,12 @@ use super::manifest::{self, Counts, Host, Manifest, Status, timestamp};
 use super::obj::obj;
 use super::obstacles::nearest_misses;
 use super::polygons::Polygons;
-use super::svg::{Shade, svg};
+use super::svg::{Plan, Shade, svg};
 use super::table::{Dialect, Table};
 use crate::config::{self, Config};
 use crate::mesh::CanonicalMesh;
 use crate::objectives::METRICS;
-use crate::search::{Ended, EvaluatedRow, Evaluation, Outcome};
+use crate::search::{Ended, EvaluatedRow, Evaluation, Outcome, ThreadsError, thread_pool};
 use crate::structure::gridshell::{Detailed, Proof};
 use crate::study::{Design, Failure, Reached, Study};
 use rayon::prelude::*;
@@ -53,7 +53,7 @@ pub enum ResultsError {
     },
     /// The system does not give the threads.
     #[error(transparent)]
-    Threads(#[from] rayon::ThreadPoolBuildError),
+    Threads(#[from] ThreadsError),
     /// A design of the front can no longer be made: the program contradicts itself.
     #[error("design {id}: {reason}")]
     Design {
@@ -149,7 +149,7 @@ impl Run<'_> {
     /// nearest; for comparison also the initial mesh, where it has a pattern.
     fn write_designs(&self, folder: &Folder, threads: usize) -> Result<(), ResultsError> {
         let front = self.front();
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+        let pool = thread_pool(threads)?;
         let baseline = self.outcome.evaluated.iter().find(|row| row.tokens.is_empty());
         let files: Vec<DesignFiles> =
             pool.install(|| front.par_iter().map(|row| self.design_files(row)).collect::<Result<_, _>>())?;
@@ -297,8 +297,23 @@ impl Developed {
     pub fn plan(&self, id: &str) -> Vec<u8> {
         let curvature = PanelShapes::of(&self.design.pattern).curvature;
         // A fixed scale, so that designs can be compared by eye.
-        let shade = Shade { label: "panel curvature", values: &curvature, darkest: 0.05 };
-        svg(&self.design.pattern, &format!("design {id}"), Some(&shade))
+        let shade = Some(Shade { label: "panel curvature", values: &curvature, darkest: 0.05 });
+        svg(&self.design.pattern, &self.title(id), &Plan { shade, supports: self.supports() })
+    }
+
+    /// What pictures of it are called.
+    pub(super) fn title(&self, id: &str) -> String {
+        let pattern = &self.design.pattern;
+        format!("design {id}: {} panels, {} members", pattern.panels.len(), pattern.edges.len())
+    }
+
+    /// Its supported nodes, and whether they are held horizontally; none where nothing was analysed.
+    pub(super) fn supports(&self) -> Vec<([f64; 3], bool)> {
+        let Some(frame) = self.results.as_ref().map(|results| &results.model.frame) else {
+            return Vec::new();
+        };
+        let nodes = frame.supported().map(|node| node.0 as usize);
+        nodes.map(|n| (frame.nodes()[n], frame.fixed()[n][0] || frame.fixed()[n][1])).collect()
     }
 
     /// The files of `designs/`.

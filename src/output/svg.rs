@@ -7,6 +7,15 @@ use crate::geometry::metrics::valences;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+/// What a plan shows beside its pattern.
+#[derive(Default)]
+pub struct Plan<'a> {
+    /// What the panels are shaded by.
+    pub shade: Option<Shade<'a>>,
+    /// Nodes that are supported, and whether also against sliding.
+    pub supports: Vec<([f64; 3], bool)>,
+}
+
 /// What the panels are shaded by.
 pub struct Shade<'a> {
     /// What the legend says, with the unit.
@@ -20,6 +29,9 @@ pub struct Shade<'a> {
 /// Longest side of the drawing, in SVG units.
 const SIZE: f64 = 800.0;
 pub(super) const MARGIN: f64 = 24.0;
+/// Room above a drawing for its title, and for a line of its key.
+const HEAD: f64 = 30.0;
+pub(super) const LINE: f64 = 20.0;
 /// Number of shades: panels of one shade share a path, which keeps files small.
 const SHADES: usize = 12;
 
@@ -30,15 +42,19 @@ const STYLE: &str = "\
 .less{fill:#d55e00}.more{fill:#0072b2}.pole{fill:#000}.corner{fill:#fff;stroke:#111;stroke-width:1.5}\
 .less,.more,.pole{stroke:#fff;stroke-width:1.5}\
 text{font:12px sans-serif;fill:#111}";
+/// Of what pictures have in common.
+const COMMON: &str = ".title{font:bold 14px sans-serif;fill:#111}.scale{fill:none;stroke:#111;stroke-width:1.5}.support{fill:#fff;stroke:#2f6b3a;stroke-width:1.4}.support.held{fill:#2f6b3a}";
 
-/// The plan, y up, with singular vertices marked: a vermilion triangle for fewer than regular members, a blue square
-/// for more, a black diamond for a pole, a white dot for a corner of the domain.
-pub fn svg(pattern: &Pattern, title: &str, shade: Option<&Shade<'_>>) -> Vec<u8> {
+/// The plan, y up, with a title and a scale, with singular vertices marked: a vermilion triangle for fewer than regular members, a blue square
+/// for more, a black diamond for a pole, a white square for a corner of the domain, and a green ring, filled where it holds
+/// horizontally too, for a support.
+pub fn svg(pattern: &Pattern, title: &str, plan: &Plan<'_>) -> Vec<u8> {
     let frame = Frame::of(&pattern.positions);
-    let legend = if shade.is_some() { 20.0 } else { 0.0 };
-    let (width, height) = (frame.width + 2.0 * MARGIN, frame.height + 2.0 * MARGIN + legend);
-    let mut text = begin(width, height, title, STYLE);
-    panels(&mut text, pattern, &frame, shade);
+    let lines =
+        1.0 + f64::from(u8::from(plan.shade.is_some())) + f64::from(u8::from(!plan.supports.is_empty()));
+    let (width, foot) = (frame.width + 2.0 * MARGIN, frame.height + 2.0 * MARGIN);
+    let mut text = begin(width, foot + LINE * lines, title, STYLE);
+    panels(&mut text, pattern, &frame, plan.shade.as_ref());
     let _ = writeln!(text, "<path class=\"coarse\" d=\"{}\"/>", coarse_edges(pattern, &frame));
     for boundary_loop in &pattern.loops {
         let _ = writeln!(
@@ -47,30 +63,64 @@ pub fn svg(pattern: &Pattern, title: &str, shade: Option<&Shade<'_>>) -> Vec<u8>
             outline(&frame, &pattern.positions, boundary_loop)
         );
     }
+    supports(&mut text, &frame, &plan.supports);
     marks(&mut text, pattern, &frame);
-    if let Some(shade) = shade {
-        draw_legend(&mut text, shade, height - 14.0);
+    text.push_str(&frame.scale_bar([MARGIN, foot]));
+    let mut y = foot;
+    if let Some(shade) = &plan.shade {
+        y += LINE;
+        draw_legend(&mut text, shade, y);
+    }
+    if !plan.supports.is_empty() {
+        text.push_str(&support_key([MARGIN, y + LINE]));
     }
     text.push_str("</svg>\n");
     text.into_bytes()
+}
+
+/// A ring at each support.
+pub(super) fn supports(text: &mut String, frame: &Frame, supports: &[([f64; 3], bool)]) {
+    for &(position, held) in supports {
+        text.push_str(&support(frame.place(position), held));
+    }
+}
+
+fn support([x, y]: [f64; 2], held: bool) -> String {
+    let (class, x, y) = (if held { "support held" } else { "support" }, rounded(x, 1), rounded(y, 1));
+    format!("<circle class=\"{class}\" cx=\"{x}\" cy=\"{y}\" r=\"3.5\"/>\n")
+}
+
+/// A line that says what the rings are.
+pub(super) fn support_key([x, y]: [f64; 2]) -> String {
+    let word = |dx: f64, words: &str| {
+        format!("<text x=\"{}\" y=\"{}\">{words}</text>\n", rounded(x + dx, 1), rounded(y, 1))
+    };
+    let rings = support([x + 4.0, y - 4.0], false) + &support([x + 164.0, y - 4.0], true);
+    rings + &word(14.0, "supported, free to slide") + &word(174.0, "supported, held against sliding")
 }
 
 /// The plan of any mesh: its faces, without marks.
 pub fn outlines(mesh: &Polygons<'_>, title: &str) -> Vec<u8> {
     let frame = Frame::of(mesh.positions);
     let paths: String = mesh.faces.iter().map(|face| outline(&frame, mesh.positions, face)).collect();
-    let mut text = begin(frame.width + 2.0 * MARGIN, frame.height + 2.0 * MARGIN, title, STYLE);
-    let _ = writeln!(text, "<g class=\"panels\"><path fill=\"{}\" d=\"{paths}\"/></g>\n</svg>", sand(0.25));
+    let foot = frame.height + 2.0 * MARGIN;
+    let mut text = begin(frame.width + 2.0 * MARGIN, foot + LINE, title, STYLE);
+    let _ = writeln!(text, "<g class=\"panels\"><path fill=\"{}\" d=\"{paths}\"/></g>", sand(0.25));
+    text.push_str(&frame.scale_bar([MARGIN, foot]));
+    text.push_str("</svg>\n");
     text.into_bytes()
 }
 
-/// The beginning of a picture on white, since a viewer may have any background.
+/// The beginning of a picture on white, since a viewer may have any background; its title above the drawing, which
+/// begins at y = 0.
 pub(super) fn begin(width: f64, height: f64, title: &str, style: &str) -> String {
-    let [width, height] = [width, height].map(|length| rounded(length, 1));
+    let [width, height] = [width, height + HEAD].map(|length| rounded(length, 1));
     format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" \
-         role=\"img\">\n<title>{}</title>\n<style>{style}</style>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
-        escape(title)
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 -{HEAD} {width} {height}\" width=\"{width}\" \
+         height=\"{height}\" role=\"img\">\n<title>{title}</title>\n<style>{COMMON}{style}</style>\n\
+         <rect y=\"-{HEAD}\" width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n\
+         <text class=\"title\" x=\"{MARGIN}\" y=\"-6\">{title}</text>\n",
+        title = escape(title)
     )
 }
 
@@ -107,6 +157,21 @@ impl Frame {
         let mut text = String::new();
         self.push(&mut text, position);
         text
+    }
+
+    /// A bar of a round length of at most a quarter of the drawing, its left end at `(x, y − 4)`, and that length.
+    pub(super) fn scale_bar(&self, [x, y]: [f64; 2]) -> String {
+        let most = 0.25 * SIZE / self.scale;
+        let power = 10f64.powi(most.log10().floor() as i32);
+        let length =
+            [5.0, 2.0, 1.0].map(|step| step * power).into_iter().find(|&step| step <= most).unwrap_or(power);
+        let (end, y) = (x + length * self.scale, y - 4.0);
+        let [x0, x1, top, low, label, base] =
+            [x, end, y - 4.0, y, end + 8.0, y + 4.0].map(|coordinate| rounded(coordinate, 1));
+        format!(
+            "<path class=\"scale\" d=\"M{x0} {top}V{low}H{x1}V{top}\"/><text x=\"{label}\" y=\"{base}\">{} m</text>\n",
+            rounded(length, 6)
+        )
     }
 
     /// Appends the place of a position.
@@ -273,11 +338,24 @@ mod tests {
 
     #[test]
     fn draws_within_its_frame_and_escapes() {
-        let shade = Shade { label: "curvature", values: &[0.0, 0.5], darkest: 0.5 };
-        let text = String::from_utf8(svg(&square_with_pole(), "a < b", Some(&shade))).unwrap();
+        let shade = Some(Shade { label: "curvature", values: &[0.0, 0.5], darkest: 0.5 });
+        let plan = Plan { shade, supports: vec![([0.0, 0.0, 0.0], true)] };
+        let text = String::from_utf8(svg(&square_with_pole(), "a < b", &plan)).unwrap();
         assert!(text.contains("<title>a &lt; b</title>"), "{text}");
         assert!(text.contains(&format!("fill=\"{}\" d=\"M824 290.7L424 24L424 424Z\"", sand(1.0))), "{text}");
         assert!(text.contains("curvature: 0 to 0.5"), "{text}");
+        assert!(text.contains(">a &lt; b</text>") && text.contains("class=\"support held\""), "{text}");
         assert!(text.ends_with("</svg>\n"));
+    }
+
+    #[test]
+    fn the_scale_is_a_round_length_drawn_to_scale() {
+        for (side, length) in [(4.0, "1 m"), (36.0, "5 m"), (100.0, "20 m"), (0.3, "0.05 m")] {
+            let frame = Frame::of(&[[0.0, 0.0, 0.0], [side, 0.5 * side, 3.0]]);
+            let bar = frame.scale_bar([24.0, 100.0]);
+            assert!(bar.contains(&format!(">{length}</text>")), "{bar}");
+            let metres: f64 = length.trim_end_matches(" m").parse().unwrap();
+            assert!(bar.contains(&format!("H{}V", rounded(24.0 + 800.0 * metres / side, 1))), "{bar}");
+        }
     }
 }

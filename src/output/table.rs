@@ -6,7 +6,7 @@ use std::io::{self, Write};
 /// One cell.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
-    /// Words.
+    /// Words. None at all, which the empty string is, are written as `""`: an empty cell is a missing value.
     Text(String),
     /// A number; one that is not finite is written as an empty cell.
     Number(f64),
@@ -55,6 +55,11 @@ impl From<u64> for Cell {
 }
 
 impl Cell {
+    /// Words where there are any, such as a reason: without them the value is missing.
+    pub fn words(text: &str) -> Self {
+        if text.is_empty() { Self::Empty } else { text.into() }
+    }
+
     /// As in a canonical file, before quoting.
     pub(super) fn text(&self) -> String {
         let mut text = String::new();
@@ -169,9 +174,9 @@ impl Dialect {
     }
 }
 
-/// Whether a field would otherwise be taken for several (RFC 4180 §2.5–2.7).
+/// Whether a field would otherwise be taken for several (RFC 4180 §2.5–2.7) or for none.
 fn needs_quotes(field: &str, separator: char) -> bool {
-    field.contains([separator, '"', '\n', '\r'])
+    field.is_empty() || field.contains([separator, '"', '\n', '\r'])
 }
 
 #[cfg(test)]
@@ -196,7 +201,7 @@ mod tests {
         let text = String::from_utf8(table().to_csv()).unwrap();
         assert_eq!(
             text,
-            "id,string,mass_kg,feasible,reason\na1,,1.5,true,\nb2,ATA*,,false,\"a, \"\"b\"\"; c\"\n"
+            "id,string,mass_kg,feasible,reason\na1,\"\",1.5,true,\nb2,ATA*,,false,\"a, \"\"b\"\"; c\"\n"
         );
     }
 
@@ -215,7 +220,7 @@ mod tests {
         let text = String::from_utf8(bytes[3..].to_vec()).unwrap();
         assert_eq!(
             text,
-            "id;string;mass_kg;feasible;reason\r\na1;;1,5;true;\r\nb2;ATA*;;false;\"a, \"\"b\"\"; c\"\r\n"
+            "id;string;mass_kg;feasible;reason\r\na1;\"\";1,5;true;\r\nb2;ATA*;;false;\"a, \"\"b\"\"; c\"\r\n"
         );
     }
 }

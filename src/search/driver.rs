@@ -134,9 +134,11 @@ impl Limits {
     }
 }
 
-/// For how many generations the hypervolume has not grown.
+/// For how many generations the hypervolume has not grown; none while it is empty: a search that has found nothing yet
+/// does not stall.
 fn stalled(state: &State) -> usize {
-    let Some(last) = state.generations.last().and_then(|g| g.hypervolume) else { return 0 };
+    let last = state.generations.last().and_then(|g| g.hypervolume);
+    let Some(last) = last.filter(|&volume| volume > 0.0) else { return 0 };
     let same = state.generations.iter().rev().take_while(|g| g.hypervolume == Some(last)).count();
     same.saturating_sub(1)
 }

@@ -18,6 +18,7 @@ mod server;
 mod state;
 mod stop;
 mod store;
+mod threads;
 
 pub use driver::run;
 pub use normalise::{ENOUGH, Normalisation, quantile};
@@ -30,3 +31,4 @@ pub use server::{Server, ThreadServer, evaluate};
 pub use state::Settings;
 pub use stop::StopFlag;
 pub use store::{Store, StoreError, differing_keys};
+pub use threads::{ThreadsError, thread_pool};

@@ -35,7 +35,8 @@ pub struct SearchParams {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub minutes: Option<f64>,
-    /// Stop when the hypervolume has not grown for this many generations.
+    /// Stop when the hypervolume has not grown for this many generations. Those before it is more than 0, in which no
+    /// feasible design better than the reference was known, do not count.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("minimum" = 1))]
     pub stall_generations: Option<u32>,

@@ -7,6 +7,7 @@ use std::sync::mpsc;
 use rayon::prelude::*;
 
 use super::problem::{Evaluation, Identity, Preview, Problem};
+use super::threads::{ThreadsError, thread_pool};
 use crate::evolve::{FAILED, Violation};
 use crate::grammar::Tokens;
 
@@ -40,8 +41,8 @@ impl<'a, P: Problem> ThreadServer<'a, P> {
     ///
     /// # Errors
     /// If the operating system does not give the threads.
-    pub fn new(problem: &'a P, threads: usize) -> Result<Self, rayon::ThreadPoolBuildError> {
-        Ok(Self { problem, pool: rayon::ThreadPoolBuilder::new().num_threads(threads).build()? })
+    pub fn new(problem: &'a P, threads: usize) -> Result<Self, ThreadsError> {
+        Ok(Self { problem, pool: thread_pool(threads)? })
     }
 }
 

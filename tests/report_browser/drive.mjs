@@ -97,10 +97,17 @@ await check("a rectangle in the matrix limits two objectives; Clear gives all ba
 
 await check("limits by numbers do the same", async () => {
   await page.click("details.limits summary");
-  await page.fill('input[aria-label="most Skewness"]', "0.2");
+  const [least, most] = ["least", "most"].map((end) => page.locator(`input[aria-label="${end} Skewness"]`));
+  await most.fill("0.2000001");
   await page.keyboard.press("Enter");
   const n = Number(await keptOf(page));
   assert.ok(n > 0 && n < 200, `${n} kept`);
+  // What was typed stays, an end that was not given is no limit, and a negative number empties no field.
+  assert.deepEqual([await least.inputValue(), await most.inputValue()], ["", "0.2000001"]);
+  await least.fill("-0.5");
+  await page.keyboard.press("Enter");
+  assert.equal(Number(await keptOf(page)), n);
+  assert.deepEqual([await least.inputValue(), await most.inputValue()], ["-0.5", "0.2000001"]);
   await page.click("#clear");
   await page.click("details.limits summary");
 });
@@ -118,7 +125,7 @@ await check("a click on a picture, a point and an identifier picks the design ev
   await cell.scrollIntoViewIfNeeded();
   const point = await page.locator("#matrix .points").first().locator("path.kept").nth(60).boundingBox();
   await page.mouse.click(point.x + point.width / 2, point.y + point.height / 2);
-  assert.match(await text(page, "#viewer-title"), /^Design [0-9a-f]{12}$/);
+  assert.match(await text(page, "#viewer-title"), /^Design q[0-9a-f]{12}$/);
 });
 
 await check("mouse, touch-like drags and keys turn the picture", async () => {

@@ -93,7 +93,7 @@ fn metrics() -> Vec<Metric> {
 
 fn baseline(panels: usize, rng: &mut Rng) -> Design {
     let mut baseline = design(0, panels, rng);
-    baseline.id = "ba5e11ee0000".to_owned();
+    baseline.id = "qba5e11ee0000".to_owned();
     baseline.string.clear();
     baseline.expressed.clear();
     baseline.generation = 0;
@@ -144,11 +144,11 @@ fn design(i: usize, panels: usize, rng: &mut Rng) -> Design {
     let inner = match kind {
         0 => BTreeMap::new(),
         1 => BTreeMap::from([(3, 4)]),
-        _ => BTreeMap::from([(12 + (i as u32 % 4), 1)]),
+        _ => BTreeMap::from([(12 + (i % 4), 1)]),
     };
     let string = ["ATTPA", "A*TPTPPA", "AoTTTAoPD", "ATPTTAPPDTATPTA"][i % 4].repeat(1 + i % 3);
     Design {
-        id: format!("{:012x}", 0x5eed_0000_0000_u64 + (i as u64).wrapping_mul(0x9e37_79b9) % 0xffff_ffff),
+        id: format!("q{:012x}", 0x5eed_0000_0000_u64 + (i as u64).wrapping_mul(0x9e37_79b9) % 0xffff_ffff),
         expressed: string[..string.len().min(12)].to_owned(),
         string,
         generation: i as u32 % 26,
@@ -158,8 +158,9 @@ fn design(i: usize, panels: usize, rng: &mut Rng) -> Design {
         singularities: Some(Singularities {
             inner,
             boundary: BTreeMap::from([(2, 4)]),
-            poles: u32::from(kind == 2),
+            poles: usize::from(kind == 2),
         }),
+        family: None,
         mesh: Some(mesh),
     }
 }

@@ -25,7 +25,7 @@ pub struct Reading<'a> {
 }
 
 /// The irregular vertices of a mesh, counted by valence.
-#[derive(Clone, PartialEq, Eq, Debug, Default, serde::Serialize)]
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug, Default, serde::Serialize, serde::Deserialize)]
 pub struct Singularities {
     /// Inner vertices with other than 4 edges.
     pub inner: BTreeMap<usize, usize>,

@@ -1,7 +1,7 @@
 //! What a report shows, as plain data: whoever has a results folder or a finished run fills this in.
 
+use crate::output::coarse::Singularities;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 
 /// Everything on the page. Numbers in SI; a value that does not exist is `None`, never `NaN`.
 #[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize)]
@@ -72,7 +72,7 @@ pub struct Metric {
 /// One design: its string, its numbers, its mesh.
 #[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize)]
 pub struct Design {
-    /// First 12 hex digits of its code.
+    /// Its id, as its files are named.
     pub id: String,
     /// The string as bred.
     pub string: String,
@@ -88,19 +88,10 @@ pub struct Design {
     pub values: Vec<Option<f64>>,
     /// Irregular vertices of its topology, by which designs are grouped into families; `None` if not known.
     pub singularities: Option<Singularities>,
+    /// Number of its family where singularities alone make too many: designs a few strips apart.
+    pub family: Option<usize>,
     /// Its dense mesh with results; without one the design has no picture.
     pub mesh: Option<Mesh>,
-}
-
-/// Number of irregular vertices by valence (edges at the vertex), as `decode` counts them.
-#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug, Default, Serialize, Deserialize)]
-pub struct Singularities {
-    /// Inner vertices with other than four edges: valence → number.
-    pub inner: BTreeMap<u32, u32>,
-    /// Boundary vertices with other than three edges: valence → number.
-    pub boundary: BTreeMap<u32, u32>,
-    /// Pole vertices.
-    pub poles: u32,
 }
 
 /// A dense mesh and what is drawn on it.

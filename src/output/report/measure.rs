@@ -1,6 +1,6 @@
 //! What the page shows of a mesh beside its shape: per-panel measures, members, singular vertices.
 
-use super::data::{Mark, Mesh, Singular, Singularities};
+use super::data::{Mark, Mesh, Singular};
 use crate::geometry::metrics::{panel_curvature, panel_skewness};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -16,19 +16,6 @@ pub(super) fn mesh(positions: Vec<[f64; 3]>, panels: Vec<Vec<u32>>) -> Mesh {
     let edges = panels_of_edges(&panels).into_keys().collect();
     let singular = irregular(&panels).iter().filter_map(Irregular::marked).collect();
     Mesh { edges, positions, panels, singular, curvature, skewness, utilisation: Vec::new() }
-}
-
-/// The irregular vertices of a mesh, which are those of its coarse mesh: densifying adds regular ones only.
-pub(super) fn singularities(mesh: &Mesh) -> Singularities {
-    let mut found = Singularities::default();
-    for vertex in irregular(&mesh.panels) {
-        match (vertex.is_pole, vertex.on_boundary) {
-            (true, _) => found.poles += 1,
-            (false, true) => *found.boundary.entry(vertex.valence).or_default() += 1,
-            (false, false) => *found.inner.entry(vertex.valence).or_default() += 1,
-        }
-    }
-    found
 }
 
 /// A vertex with other than four edges inside or three on the boundary, or a pole.
@@ -97,15 +84,6 @@ mod tests {
         positions.extend((1..7).map(at));
         positions.push([2.0, -1.0, 0.0]);
         mesh(positions, vec![vec![0, 1, 2, 3], vec![0, 3, 4, 5], vec![0, 5, 6, 1], vec![6, 7, 1]])
-    }
-
-    #[test]
-    fn counts_what_is_irregular() {
-        let found = singularities(&tripod());
-        assert_eq!(found.inner, BTreeMap::from([(3, 1)]));
-        // Vertices 2, 4 and 7 have two edges each, vertex 1 has four.
-        assert_eq!(found.boundary, BTreeMap::from([(2, 3), (4, 1)]));
-        assert_eq!(found.poles, 1);
     }
 
     #[test]

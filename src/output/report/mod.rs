@@ -6,16 +6,15 @@
 mod choose;
 mod data;
 mod encode;
+mod families;
 mod measure;
 mod page;
 mod read;
 mod shape;
 
+pub use crate::output::coarse::Singularities;
 pub use choose::worth_a_mesh;
-pub use data::{
-    Design, Generation, Mark, Mesh, Metric, Obstacle, ReportData, Run, Sample, Singular, Singularities,
-    Spread,
-};
+pub use data::{Design, Generation, Mark, Mesh, Metric, Obstacle, ReportData, Run, Sample, Singular, Spread};
 pub use read::read;
 
 /// Why a report cannot be made. All of these are mistakes of the caller: a run's own data satisfies them.

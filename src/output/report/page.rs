@@ -44,6 +44,7 @@ struct Row<'a> {
     reason: &'a Option<String>,
     values: Vec<Option<f64>>,
     singularities: &'a Option<super::Singularities>,
+    group: Option<usize>,
 }
 
 #[derive(Serialize)]
@@ -105,6 +106,7 @@ fn row(design: &Design) -> Row<'_> {
         reason: &design.reason,
         values: design.values.iter().map(|v| v.filter(|v| v.is_finite())).collect(),
         singularities: &design.singularities,
+        group: design.family,
     }
 }
 

@@ -2,14 +2,19 @@
 
 use super::choose::worth_a_mesh;
 use super::data::{Design, Generation, Metric, Obstacle, ReportData, Run, Sample, Spread};
+use super::families::{HANDFUL, families};
 use super::{measure, shape};
+use crate::mesh::QuadMesh;
 use crate::objectives::{self, METRICS};
-use crate::output::designs;
+use crate::output::coarse::singularities;
+use crate::output::designs::{Naming, id};
 use crate::output::folder::DESIGNS;
 use crate::output::load::{LoadError, Loaded, load};
 use crate::output::manifest::Manifest;
 use crate::output::obstacles::{Obstacles, nearest_misses};
 use crate::search::{EvaluatedRow, GenerationRow};
+use crate::study::Study;
+use std::collections::BTreeSet;
 use std::path::Path;
 
 /// Bytes of the page that meshes may take; the rest of 15 MB is for libraries and numbers.
@@ -25,14 +30,16 @@ const BYTES_PER_PANEL: usize = 28;
 /// # Errors
 /// [`LoadError`]: a file that is missing or cannot be read, by name and line.
 pub fn read(folder: &Path) -> Result<ReportData, LoadError> {
-    let Loaded { manifest, config, evaluated, front, generations, .. } = load(folder)?;
-    let shown = Shown::of(&config.objectives.minimise, &evaluated);
+    let loaded = load(folder)?;
+    let shown = Shown::of(&loaded);
+    let Loaded { manifest, evaluated, front, generations, .. } = loaded;
     let shapes = folder.join(DESIGNS);
     let mut rows: Vec<Design> =
         front.iter().map(|&row| shown.design(&evaluated[row], &shapes)).collect::<Result<_, _>>()?;
     // Any string of which nothing is expressed gives the initial mesh.
     let initial = evaluated.iter().find(|row| row.expressed.is_empty());
-    let baseline = initial.map(|row| shown.design(row, &shapes)).transpose()?;
+    let mut baseline = initial.map(|row| shown.design(row, &shapes)).transpose()?;
+    shown.group(baseline.iter_mut().chain(&mut rows).collect());
     let misses = nearest_misses(&evaluated);
     let misses: Vec<Design> =
         misses.iter().map(|&row| shown.design(&evaluated[row], &shapes)).collect::<Result<_, _>>()?;
@@ -99,39 +106,55 @@ fn metric(metric: &objectives::Metric) -> Metric {
 struct Shown {
     places: Vec<usize>,
     objectives: usize,
+    naming: Naming,
+    /// What strings mean; none where the files that the config names are no longer there.
+    study: Option<Study>,
 }
 
 impl Shown {
-    fn of(minimised: &[String], evaluated: &[EvaluatedRow]) -> Self {
+    fn of(loaded: &Loaded) -> Self {
+        let Loaded { config, config_folder, evaluated, naming, .. } = loaded;
+        let minimised = &config.objectives.minimise;
         let place = |name: &String| METRICS.iter().position(|metric| metric.name == name);
         let mut places: Vec<usize> = minimised.iter().filter_map(place).collect();
         let objectives = places.len();
         let exists = |place: &usize| evaluated.iter().any(|row| row.metrics.get(*place).is_some());
         let others = (0..METRICS.len()).filter(|place| !places.contains(place)).filter(exists);
         places.extend(others.collect::<Vec<_>>());
-        Self { places, objectives }
+        Self { places, objectives, naming: *naming, study: Study::new(config, config_folder).ok() }
     }
 
     fn design(&self, row: &EvaluatedRow, shapes: &Path) -> Result<Design, LoadError> {
         let mut design = Design {
-            id: designs::id(row.code),
+            id: self.naming.apply(id(row.code)),
             string: row.tokens.to_string(),
             expressed: row.expressed.to_string(),
             generation: row.generation,
             feasible: row.is_feasible(),
             reason: (!row.reason.is_empty()).then(|| row.reason.to_string()),
             values: self.places.iter().map(|&place| row.metrics.get(place)).collect(),
-            singularities: None,
+            singularities: self.study.as_ref().map(|study| singularities(&study.decode(&row.tokens).mesh)),
+            family: None,
             mesh: None,
         };
         if let Some((positions, panels)) = shape::compas(&shapes.join(format!("{}.json", design.id)))? {
             let mut mesh = measure::mesh(positions, panels);
             mesh.utilisation =
                 shape::utilisation(shapes, &format!("{}_members.csv", design.id), &mesh.edges)?;
-            design.singularities = Some(measure::singularities(&mesh));
             design.mesh = Some(mesh);
         }
         Ok(design)
+    }
+
+    /// Groups designs into families, where their singularities make more than a handful.
+    fn group(&self, mut designs: Vec<&mut Design>) {
+        let kinds: BTreeSet<_> = designs.iter().map(|design| &design.singularities).collect();
+        let Some(study) = self.study.as_ref().filter(|_| kinds.len() > HANDFUL) else { return };
+        let mesh = |design: &&mut Design| Some(study.decode(&design.string.parse().ok()?).mesh);
+        let Some(meshes) = designs.iter().map(mesh).collect::<Option<Vec<QuadMesh>>>() else { return };
+        for (design, family) in designs.iter_mut().zip(families(&meshes)) {
+            design.family = Some(family);
+        }
     }
 
     /// Objectives of the feasible designs evaluated in the first and in the last generation that has any.

@@ -15,6 +15,27 @@ use super::journal::checksum;
 /// Version of the format; another one is not read.
 const VERSION: u32 = 1;
 
+/// Why a checkpoint is not used.
+#[derive(Debug)]
+pub(super) enum Unusable {
+    /// A later program wrote it: the version of its format.
+    Newer(u32),
+    /// It is damaged: how, in words.
+    Damaged(String),
+}
+
+impl<E: std::error::Error> From<E> for Unusable {
+    fn from(error: E) -> Self {
+        Self::Damaged(error.to_string())
+    }
+}
+
+/// The version alone: a later format need not have anything else in common.
+#[derive(Deserialize)]
+struct Version {
+    version: u32,
+}
+
 /// The file: a checksum over the exact text of the state.
 #[derive(Serialize, Deserialize)]
 struct Envelope<'a> {
@@ -61,31 +82,30 @@ impl Checkpoint {
         Ok(bytes)
     }
 
-    fn parse(text: &str) -> Result<Self, String> {
-        let envelope: Envelope<'_> = serde_json::from_str(text).map_err(|error| error.to_string())?;
-        if envelope.version != VERSION {
-            return Err(format!("it has version {}, this program reads {VERSION}", envelope.version));
+    fn parse(text: &str) -> Result<Self, Unusable> {
+        let damaged = |how: &str| Err(Unusable::Damaged(how.to_owned()));
+        match serde_json::from_str(text)? {
+            Version { version } if version > VERSION => return Err(Unusable::Newer(version)),
+            Version { version } if version < VERSION => return damaged("its format is no longer read"),
+            Version { .. } => {}
         }
+        let envelope: Envelope<'_> = serde_json::from_str(text)?;
         if envelope.checksum != checksum(envelope.state.get().as_bytes()) {
-            return Err("its checksum is wrong".to_owned());
+            return damaged("its checksum is wrong");
         }
-        let checkpoint: Self =
-            serde_json::from_str(envelope.state.get()).map_err(|error| error.to_string())?;
+        let checkpoint: Self = serde_json::from_str(envelope.state.get())?;
         if checkpoint.population.iter().any(|m| u64::from(m.row) >= checkpoint.evaluations) {
-            return Err("its population has no values".to_owned());
+            return damaged("its population has no values");
         }
         Ok(checkpoint)
     }
 }
 
-/// Reads a checkpoint; `None` if there is no such file, an error in words if it cannot be used.
-pub(super) fn read(path: &Path) -> Result<Option<Checkpoint>, String> {
+/// Reads a checkpoint; `None` if there is no such file, an error if it cannot be used.
+pub(super) fn read(path: &Path) -> Result<Option<Checkpoint>, Unusable> {
     match fs::read(path) {
-        Ok(bytes) => {
-            let text = std::str::from_utf8(&bytes).map_err(|error| error.to_string())?;
-            Checkpoint::parse(text).map(Some)
-        }
+        Ok(bytes) => Checkpoint::parse(std::str::from_utf8(&bytes)?).map(Some),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(error.to_string()),
+        Err(error) => Err(error.into()),
     }
 }

@@ -14,6 +14,18 @@ pub enum StoreError {
         /// What the system says.
         source: io::Error,
     },
+    /// A later program wrote it.
+    #[error(
+        "{}: a later version of quadrille wrote it (its format is {found}): go on with that version, or give another \
+         --out",
+        path.display()
+    )]
+    Newer {
+        /// The file.
+        path: PathBuf,
+        /// The version of its format.
+        found: u32,
+    },
     /// The run was begun with another config.
     #[error("{folder}: the run was begun with another config; these keys differ: {}", keys.join(", "))]
     OtherConfig {

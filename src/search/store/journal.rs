@@ -25,6 +25,12 @@ struct Header {
     config: Value,
 }
 
+/// The version alone: a later format need not have anything else in common.
+#[derive(Deserialize)]
+struct Version {
+    journal: u32,
+}
+
 /// The open journal.
 #[derive(Debug)]
 pub(super) struct Journal {
@@ -38,6 +44,8 @@ pub(super) struct Journal {
 pub(super) struct Left {
     pub(super) config: Option<Value>,
     pub(super) entries: Vec<Entry>,
+    /// The version of the format, where a later program wrote it.
+    pub(super) newer: Option<u32>,
     /// Lines that cannot be read.
     pub(super) damaged: usize,
     /// Bytes up to the end of the last whole line.
@@ -118,6 +126,8 @@ impl Left {
             return;
         };
         if first {
+            let version = serde_json::from_str(json).map(|Version { journal }| journal);
+            self.newer = version.ok().filter(|&version| version > VERSION);
             let header = serde_json::from_str::<Header>(json).ok().filter(|h| h.journal == VERSION);
             self.config = header.map(|header| header.config);
         } else if let Ok(entry) = serde_json::from_str(json) {

@@ -5,7 +5,7 @@
 //! * `checkpoint.json`: the state after the last finished generation: population, rows of `generations.csv`, the
 //!   number of evaluated designs, and the resolved config. Versioned, with a checksum, replaced atomically.
 //! * `checkpoint.previous.json`: the one before, in case the newest is damaged.
-//! * `evaluations.jsonl`: a journal of every evaluation, appended to as each is finished. It holds the evaluations
+//! * `evaluations.journal`: a journal of every evaluation, appended to as each is finished. It holds the evaluations
 //!   since the checkpoint, and also all those before: to write these into every checkpoint anew would cost O(n²) over
 //!   a run. One line is a checksum and a JSON object, so a torn or damaged line is noticed and left out.
 //!
@@ -28,7 +28,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use self::checkpoint::Checkpoint;
+use self::checkpoint::{Checkpoint, Unusable};
 use self::entry::Entry;
 use self::journal::Journal;
 use super::breeding::Child;
@@ -37,7 +37,7 @@ use super::problem::Evaluation;
 use super::state::{Indexed, Settings, State};
 use crate::mesh::canonical::Code;
 use crate::output::atomic;
-use crate::output::folder::{CHECKPOINT, CHECKPOINT_PREVIOUS, JOURNAL};
+use crate::output::folder::{self, CHECKPOINT, CHECKPOINT_PREVIOUS, JOURNAL, JOURNAL_BEFORE};
 
 pub use compare::differing_keys;
 pub(crate) use entry::text;
@@ -72,7 +72,7 @@ impl Store {
     /// # Errors
     /// If files cannot be written.
     pub fn create(folder: &Path, config: Value) -> Result<Self, StoreError> {
-        for name in [CHECKPOINT, CHECKPOINT_PREVIOUS] {
+        for name in [CHECKPOINT, CHECKPOINT_PREVIOUS, JOURNAL_BEFORE] {
             let path = folder.join(name);
             match fs::remove_file(&path) {
                 Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
@@ -88,8 +88,8 @@ impl Store {
     /// Goes on in `folder`; starts anew where there is nothing to go on from.
     ///
     /// # Errors
-    /// If files cannot be read or written, or `config` differs from the recorded one in anything but threads and the
-    /// stopping limits.
+    /// If files cannot be read or written, a later program wrote them, or `config` differs from the recorded one in
+    /// anything but threads and the stopping limits.
     pub fn resume(folder: &Path, config: Value) -> Result<Self, StoreError> {
         let mut found = Found::default();
         let mut recorded = None;
@@ -101,18 +101,25 @@ impl Store {
                     found.checkpoints.push(checkpoint);
                 }
                 Ok(None) => {}
-                Err(damage) => found.notices.push(format!("{name} is not used: {damage}")),
+                Err(Unusable::Damaged(how)) => found.notices.push(format!("{name} is not used: {how}")),
+                Err(Unusable::Newer(found)) => {
+                    return Err(StoreError::Newer { path: folder.join(name), found });
+                }
             }
         }
         // Compared before the journal is opened for writing: a refused resume leaves everything as it was.
-        let left = journal::read(&folder.join(JOURNAL))?;
+        let path = folder::journal(folder);
+        let left = journal::read(&path)?;
+        if let Some(found) = left.newer {
+            return Err(StoreError::Newer { path, found });
+        }
         if let Some(recorded) = recorded.as_ref().or(left.config.as_ref()) {
             let keys = differing_keys(recorded, &config);
             if !keys.is_empty() {
                 return Err(StoreError::OtherConfig { folder: folder.to_path_buf(), keys });
             }
         }
-        let journal = Journal::resume(&folder.join(JOURNAL), &config, &left)?;
+        let journal = Journal::resume(&path, &config, &left)?;
         if left.damaged > 0 {
             found.notices.push(format!("{JOURNAL}: damaged lines left out: {}", left.damaged));
         }
@@ -130,7 +137,7 @@ impl Store {
                 return Ok(Some(checkpoint.config));
             }
         }
-        Ok(journal::read(&folder.join(JOURNAL))?.config)
+        Ok(journal::read(&folder::journal(folder))?.config)
     }
 
     /// The state to go on from.
