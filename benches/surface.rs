@@ -3,10 +3,10 @@
 #![allow(missing_docs, clippy::unwrap_used, reason = "criterion's macros; fixed inputs")]
 
 use criterion::{Criterion, criterion_group, criterion_main};
+use quadrille::io::Inputs;
 use quadrille::random;
 use quadrille::surface::{self, GreatCourt, HeightFunction as _, MeshSurface, Surface, SurfaceParams};
 use std::hint::black_box;
-use std::path::Path;
 
 const POINTS: usize = 22_000;
 
@@ -46,7 +46,7 @@ fn project(c: &mut Criterion) {
     let points = points();
     let surface = |text: &str| {
         let params: SurfaceParams = toml::from_str(text).unwrap();
-        surface::build(&params, Path::new(".")).unwrap()
+        surface::build(&params, &Inputs::default()).unwrap()
     };
     let mesh = triangles();
     let roof = surface("kind = 'great-court'");

@@ -6,7 +6,7 @@
 mod remarks;
 mod supports;
 
-use crate::config::Config;
+use crate::config::{self, Config};
 use crate::domain::{self, Domain, DomainError};
 use crate::evolve::{FAILED, Violation};
 use crate::geometry::limits::{self, LimitExcess, Limits};
@@ -14,6 +14,7 @@ use crate::geometry::metrics::{self, Fabrication};
 use crate::geometry::params::{Pinched, RulesParam};
 use crate::geometry::{self, Pattern, PatternParams, Rejection, Shaped};
 use crate::grammar::{self, Decoded, Rules, Tokens};
+use crate::io::Inputs;
 use crate::mesh::distance::deletions;
 use crate::mesh::isomorphism::{Equivalence, Symmetry, canonical_mesh_under};
 use crate::mesh::{BaseMeshError, CanonicalMesh, Code, InitialMesh, QuadMesh};
@@ -177,14 +178,22 @@ pub enum Effort {
 }
 
 impl Study {
-    /// Makes a config ready; files named in it are relative to `base_dir`.
+    /// Makes a config ready and reads the files that it names, relative to `folder`.
     ///
     /// # Errors
     /// See [`StudyError`]; nothing has been evaluated then.
-    pub fn new(config: &Config, base_dir: &Path) -> Result<Self, StudyError> {
-        let surface = surface::build(&config.surface, base_dir)?;
-        let domain = Domain::resolve_for(&config.domain, &surface, base_dir, config.pattern.grain())?;
-        let initial = initial_mesh(config, &domain, base_dir)?;
+    pub fn new(config: &Config, folder: &Path) -> Result<Self, StudyError> {
+        Self::of(config, &config::read_inputs(config, folder))
+    }
+
+    /// Makes a config ready; the files that it names are among `inputs`.
+    ///
+    /// # Errors
+    /// See [`StudyError`]; nothing has been evaluated then.
+    pub fn of(config: &Config, inputs: &Inputs) -> Result<Self, StudyError> {
+        let surface = surface::build(&config.surface, inputs)?;
+        let domain = Domain::resolve_for(&config.domain, &surface, inputs, config.pattern.grain())?;
+        let initial = initial_mesh(config, &domain, inputs)?;
         let symmetries = domain.symmetries(&config.domain.symmetries)?;
         if let Some(structure) = &config.structure {
             supports::check_points(&domain, structure)?;
@@ -371,8 +380,8 @@ impl Study {
 }
 
 /// The initial mesh of the config with its marks: not sharp where the domain has no corners (GEOMETRY §0.4).
-fn initial_mesh(config: &Config, domain: &Domain, base_dir: &Path) -> Result<InitialMesh, StudyError> {
-    let base = skeleton::initial(&config.topology, domain, base_dir)?;
+fn initial_mesh(config: &Config, domain: &Domain, inputs: &Inputs) -> Result<InitialMesh, StudyError> {
+    let base = skeleton::initial(&config.topology, domain, inputs)?;
     let mut initial = InitialMesh::from_base(&base)?;
     if domain.mark().is_some() {
         initial.mesh.blunt(0);

@@ -4,16 +4,16 @@
 
 use quadrille::domain::{Domain, DomainParams};
 use quadrille::geometry::PatternParams;
+use quadrille::io::Inputs;
 use quadrille::surface::{self, MeshSurface, Surface, SurfaceParams};
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::path::Path;
 use std::sync::Arc;
 
 fn resolve(domain: &str, surface: &str) -> Domain {
     let params: DomainParams = toml::from_str(domain).unwrap();
     let surface: SurfaceParams = toml::from_str(surface).unwrap();
-    let surface = surface::build(&surface, Path::new(".")).unwrap();
-    Domain::resolve(&params, &surface, Path::new(".")).unwrap()
+    let surface = surface::build(&surface, &Inputs::default()).unwrap();
+    Domain::resolve(&params, &surface, &Inputs::default()).unwrap()
 }
 
 fn polygon(points: &[[f64; 2]]) -> String {
@@ -93,7 +93,7 @@ fn a_mesh_has_the_area_of_its_triangles() {
     let surface: Arc<dyn Surface> = Arc::new(MeshSurface::new(&vertices, &faces).unwrap());
     let on_mesh = |points: &[[f64; 2]]| {
         let params: DomainParams = toml::from_str(&polygon(points)).unwrap();
-        Domain::resolve(&params, &surface, Path::new(".")).unwrap().surface_area()
+        Domain::resolve(&params, &surface, &Inputs::default()).unwrap().surface_area()
     };
     let square = |side: f64| [[-side, -side], [side, -side], [side, side], [-side, side]];
     assert!(off(on_mesh(&square(10.0)), exact) < 1e-3, "{} {exact}", on_mesh(&square(10.0)));
@@ -112,7 +112,8 @@ fn a_mesh_has_the_area_of_its_triangles() {
 fn the_great_court() {
     let walls = [[-36.625, -51.125], [36.625, -51.125], [36.625, 46.025], [-36.625, 46.025]];
     let court = resolve(&(polygon(&walls) + &circle([0.0, 0.0], 22.245)), "kind = 'great-court'");
-    let surface = surface::build(&toml::from_str("kind = 'great-court'").unwrap(), Path::new(".")).unwrap();
+    let surface =
+        surface::build(&toml::from_str("kind = 'great-court'").unwrap(), &Inputs::default()).unwrap();
     let (nx, ny) = (1465, 1943);
     let (mut sum, mut count) = (0.0, 0.0);
     for i in 0..nx {

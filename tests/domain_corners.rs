@@ -3,14 +3,14 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use quadrille::domain::{Domain, DomainParams, Grain};
+use quadrille::io::Inputs;
 use quadrille::surface::{self, SurfaceParams};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-use std::path::Path;
 
 fn resolve(domain: &str, grain: Grain) -> Domain {
     let params: DomainParams = toml::from_str(domain).unwrap();
-    let surface = surface::build(&SurfaceParams::Plane { z_m: 0.0 }, Path::new(".")).unwrap();
-    Domain::resolve_for(&params, &surface, Path::new("."), grain).unwrap()
+    let surface = surface::build(&SurfaceParams::Plane { z_m: 0.0 }, &Inputs::default()).unwrap();
+    Domain::resolve_for(&params, &surface, &Inputs::default(), grain).unwrap()
 }
 
 fn outline(points: &[[f64; 2]]) -> String {

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use quadrille::domain::{Domain, DomainError, DomainParams, Symmetry};
+use quadrille::io::Inputs;
 use quadrille::surface::{self, SurfaceParams};
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
@@ -10,8 +11,8 @@ use std::path::Path;
 fn resolve(domain: &str, surface: &str) -> Result<Domain, DomainError> {
     let params: DomainParams = toml::from_str(domain).unwrap();
     let surface: SurfaceParams = toml::from_str(surface).unwrap();
-    let surface = surface::build(&surface, Path::new(".")).unwrap();
-    Domain::resolve(&params, &surface, Path::new("tests/data/domain"))
+    let surface = surface::build(&surface, &Inputs::default()).unwrap();
+    Domain::resolve(&params, &surface, &Inputs::read(Path::new("tests/data/domain"), params.files()))
 }
 
 const COURT: &str = r#"

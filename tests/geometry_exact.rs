@@ -3,17 +3,17 @@
 use quadrille::domain::{Domain, DomainParams};
 use quadrille::geometry::params::{RelaxKind, RelaxParams};
 use quadrille::geometry::{Pattern, PatternParams, develop, metrics};
+use quadrille::io::Inputs;
 use quadrille::mesh::isomorphism::canonical_mesh;
 use quadrille::mesh::{BaseMesh, CanonicalMesh, InitialMesh};
 use quadrille::surface::{Surface, SurfaceParams, build};
 use std::fmt::Write as _;
-use std::path::Path;
 use std::sync::Arc;
 
 fn site(domain: &str, surface: &SurfaceParams) -> (Domain, Arc<dyn Surface>) {
-    let surface = build(surface, Path::new(".")).expect("a surface");
+    let surface = build(surface, &Inputs::default()).expect("a surface");
     let params: DomainParams = toml::from_str(domain).expect("a domain");
-    (Domain::resolve(&params, &surface, Path::new(".")).expect("a domain"), surface)
+    (Domain::resolve(&params, &surface, &Inputs::default()).expect("a domain"), surface)
 }
 
 fn canonical(base: &BaseMesh) -> CanonicalMesh {

@@ -10,18 +10,19 @@ use quadrille::geometry::limits::{Extremes, LimitExcess, Limits, excesses};
 use quadrille::geometry::metrics::{panel_skewness, smallest_angle};
 use quadrille::geometry::params::LimitParams;
 use quadrille::geometry::{Panel, Pattern, PatternParams, Rejection};
+use quadrille::io::Inputs;
 use quadrille::study::{Design, Effort, Study};
 use quadrille::surface::{self, Surface, SurfaceParams};
 use std::path::Path;
 use std::sync::Arc;
 
 fn square(side: f64) -> (Domain, Arc<dyn Surface>) {
-    let surface = surface::build(&SurfaceParams::Plane { z_m: 0.0 }, Path::new(".")).unwrap();
+    let surface = surface::build(&SurfaceParams::Plane { z_m: 0.0 }, &Inputs::default()).unwrap();
     let text = format!(
         "[[loop]]\nkind = 'polyline'\npoints_m = [[0, 0], [{side}, 0], [{side}, {side}], [0, {side}]]"
     );
     let params: DomainParams = toml::from_str(&text).unwrap();
-    (Domain::resolve(&params, &surface, Path::new(".")).unwrap(), surface)
+    (Domain::resolve(&params, &surface, &Inputs::default()).unwrap(), surface)
 }
 
 /// A pattern of one loop with t = 1 m.

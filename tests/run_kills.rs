@@ -89,7 +89,7 @@ fn killed_at_random_moments_and_resumed_each_time() {
     let mut folder = TempDir::new().unwrap();
     let (mut killed, mut finished, mut sittings) = (0, 0, 0);
     while killed < kills {
-        let begun = fs::exists(folder.path().join(".lock")).unwrap();
+        let begun = fs::exists(folder.path().join(".quadrille.lock")).unwrap();
         let mut child = begin(folder.path(), if begun { &["--resume"] } else { &[] });
         sleep(Duration::from_micros(below(&mut stream(50, sittings, 0), longest) as u64));
         sittings += 1;
@@ -112,7 +112,7 @@ fn killed_at_random_moments_and_resumed_each_time() {
         }
     }
     eprintln!("{killed} kills, {finished} runs finished among them");
-    if fs::exists(folder.path().join(".lock")).unwrap() {
+    if fs::exists(folder.path().join(".quadrille.lock")).unwrap() {
         let last = resume(folder.path());
         assert!(last.status.success(), "{}", stderr(&last));
         check(folder.path(), "after the last kill");
@@ -229,4 +229,112 @@ fn a_full_disk_ends_the_run_with_exit_1_and_it_goes_on_when_there_is_space() {
         assert!(!told.contains(".tmp\n"), "{told}");
         check(copy.path(), size);
     }
+}
+
+/// Sends a signal to a run.
+fn send(child: &Child, signal: &str) {
+    assert!(Command::new("kill").args(["-s", signal, &child.id().to_string()]).status().unwrap().success());
+}
+
+#[test]
+fn signals_that_come_together_are_one() {
+    // As `timeout` sends them, to the program and to its group; and as a terminal that is closed does.
+    for signals in [["TERM", "TERM"], ["INT", "TERM"], ["INT", "INT"]] {
+        let folder = TempDir::new().unwrap();
+        let child = begin_and_wait(folder.path(), 30);
+        signals.iter().for_each(|signal| send(&child, signal));
+        let output = child.wait_with_output().unwrap();
+        let exit = output.status.code();
+        assert!(exit == Some(130) || exit == Some(143), "{signals:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains("interrupted; go on with: "), "{}", stderr(&output));
+        assert!(resume(folder.path()).status.success());
+        check(folder.path(), "after two signals");
+    }
+}
+
+#[test]
+fn a_second_signal_later_aborts() {
+    let folder = TempDir::new().unwrap();
+    let mut child =
+        begin(folder.path(), &["--set", "pattern.panels=60000", "--set", "pattern.max_faces=1000000"]);
+    while !fs::exists(folder.path().join("evaluations.journal")).unwrap() {
+        sleep(Duration::from_millis(2));
+    }
+    send(&child, "INT");
+    let clock = Instant::now();
+    // An evaluation of this size takes minutes.
+    while child.try_wait().unwrap().is_none() && clock.elapsed() < Duration::from_secs(60) {
+        sleep(Duration::from_millis(100));
+        if clock.elapsed() > Duration::from_secs(2) {
+            send(&child, "INT");
+        }
+    }
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130));
+    assert!(!stderr(&output).contains("go on with"), "it ended by itself: {}", stderr(&output));
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_closed_terminal_interrupts_unless_it_is_to_be_ignored() {
+    let through = |wrapper: &[&str], folder: &Path| {
+        let mut command = Command::new(wrapper[0]);
+        command
+            .current_dir(env!("CARGO_MANIFEST_DIR"))
+            .args(&wrapper[1..])
+            .arg(PROGRAM)
+            .args(RUN)
+            .arg(folder);
+        let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+        while journalled(folder) < 30 {
+            sleep(Duration::from_millis(1));
+        }
+        send(&child, "HUP");
+        child.wait_with_output().unwrap()
+    };
+    let folder = TempDir::new().unwrap();
+    let output = through(&["env", "--default-signal=HUP"], folder.path());
+    assert_eq!(output.status.code(), Some(129), "{}", stderr(&output));
+    assert!(stderr(&output).contains("go on with: "), "{}", stderr(&output));
+    assert!(resume(folder.path()).status.success());
+    check(folder.path(), "hung up");
+    let folder = TempDir::new().unwrap();
+    let output = through(&["nohup"], folder.path());
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+}
+
+fn manifest(folder: &Path) -> serde_json::Value {
+    serde_json::from_slice(&fs::read(folder.join("manifest.json")).unwrap()).unwrap()
+}
+
+#[test]
+fn seconds_add_up_over_kills_and_repairs() {
+    let folder = TempDir::new().unwrap();
+    let endless = ["--set", "search.generations=100000"];
+    let mut child = begin(folder.path(), &endless);
+    let seconds = |folder: &Path| manifest(folder)["seconds"].as_f64().unwrap();
+    // The manifest tells how long the run has been on while it is.
+    let told = || fs::exists(folder.path().join("manifest.json")).unwrap() && seconds(folder.path()) > 1.0;
+    while !told() {
+        assert!(child.try_wait().unwrap().is_none());
+        sleep(Duration::from_millis(10));
+    }
+    assert_eq!(manifest(folder.path())["status"], "running");
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let killed = manifest(folder.path());
+    let generations = killed["counts"]["generations"].as_u64().unwrap() + 2;
+    let limit = format!("search.generations={generations}");
+    let more = ["--resume", "--set", &limit];
+    assert!(command(folder.path(), &more).output().unwrap().status.success());
+    let (resumed, last) = (manifest(folder.path()), seconds(folder.path()));
+    assert!(last > killed["seconds"].as_f64().unwrap(), "{last}");
+    assert_eq!(resumed["started"], killed["started"]);
+    // Both checkpoints are lost: the run is done again, and that takes its time too.
+    for name in ["checkpoint.json", "checkpoint.previous.json"] {
+        fs::write(folder.path().join(name), "{").unwrap();
+    }
+    assert!(command(folder.path(), &more).output().unwrap().status.success());
+    assert!(seconds(folder.path()) > last);
+    assert_eq!(manifest(folder.path())["counts"], resumed["counts"]);
 }

@@ -4,6 +4,7 @@
 use quadrille::config;
 use quadrille::domain::params::{CornerRule, Corners};
 use quadrille::domain::{Domain, DomainParams, LoopParams};
+use quadrille::io::Inputs;
 use quadrille::mesh::{BaseMesh, InitialMesh, base_json};
 use quadrille::random::{self, Rng};
 use quadrille::surface::SurfaceParams;
@@ -17,9 +18,9 @@ fn data(name: &str) -> PathBuf {
 
 fn domain(name: &str) -> Domain {
     let config = config::load(&data(name), &[]).unwrap();
-    let folder = config::folder_of(&data(name)).to_owned();
-    let surface = surface::build(&config.surface, &folder).unwrap();
-    Domain::resolve(&config.domain, &surface, &folder).unwrap()
+    let inputs = config::read_inputs(&config, config::folder_of(&data(name)));
+    let surface = surface::build(&config.surface, &inputs).unwrap();
+    Domain::resolve(&config.domain, &surface, &inputs).unwrap()
 }
 
 fn mesh(name: &str) -> (Domain, BaseMesh, InitialMesh) {
@@ -178,7 +179,7 @@ fn random_hole(rng: &mut Rng) -> LoopParams {
 /// names the cure.
 #[test]
 fn random_domains() {
-    let plane = surface::build(&SurfaceParams::Plane { z_m: 0.0 }, std::path::Path::new(".")).unwrap();
+    let plane = surface::build(&SurfaceParams::Plane { z_m: 0.0 }, &Inputs::default()).unwrap();
     let (mut tried, mut failed, mut seed) = (0, 0, 0);
     while tried < 300 {
         seed += 1;
@@ -186,7 +187,7 @@ fn random_domains() {
         let mut loops = vec![random_outline(&mut rng)];
         loops.extend((0..random::below(&mut rng, 4)).map(|_| random_hole(&mut rng)).collect::<Vec<_>>());
         let params = DomainParams { symmetries: Vec::new(), mark_m: None, loops };
-        let Ok(domain) = Domain::resolve(&params, &plane, std::path::Path::new(".")) else { continue };
+        let Ok(domain) = Domain::resolve(&params, &plane, &Inputs::default()) else { continue };
         tried += 1;
         match skeleton::initial_mesh(&domain) {
             Ok(base) => {

@@ -3,6 +3,7 @@
 
 use quadrille::domain::{Domain, DomainParams, Symmetry};
 use quadrille::geometry::params::TopologyParams;
+use quadrille::io::Inputs;
 use quadrille::mesh::{BaseMesh, InitialMesh};
 use quadrille::skeleton;
 use quadrille::surface::{self, SurfaceParams};
@@ -11,13 +12,14 @@ use std::path::Path;
 fn domain(text: &str, surface: &str) -> Domain {
     let params: DomainParams = toml::from_str(text).unwrap();
     let surface: SurfaceParams = toml::from_str(surface).unwrap();
-    let surface = surface::build(&surface, Path::new(".")).unwrap();
-    Domain::resolve(&params, &surface, Path::new(".")).unwrap()
+    let surface = surface::build(&surface, &Inputs::default()).unwrap();
+    Domain::resolve(&params, &surface, &Inputs::default()).unwrap()
 }
 
 fn initial(topology: &str, domain: &Domain) -> Result<BaseMesh, String> {
     let params: TopologyParams = toml::from_str(topology).map_err(|e| e.to_string())?;
-    skeleton::initial(&params, domain, Path::new("tests/data/skeleton")).map_err(|e| e.to_string())
+    skeleton::initial(&params, domain, &Inputs::read(Path::new("tests/data/skeleton"), params.files()))
+        .map_err(|e| e.to_string())
 }
 
 const SQUARE: &str = "[[loop]]\nkind = 'polyline'\npoints_m = [[0, 0], [6, 0], [6, 4], [0, 4]]\n";
@@ -82,7 +84,7 @@ fn holes_take_the_order_of_the_domain() {
         ..TopologyParams::default()
     };
     for domain in [right_first, left_first] {
-        let fitted = skeleton::initial(&inline, &domain, Path::new(".")).unwrap();
+        let fitted = skeleton::initial(&inline, &domain, &Inputs::default()).unwrap();
         let mesh = InitialMesh::from_base(&fitted).unwrap().mesh;
         for (label, darts) in mesh.loops().iter().enumerate() {
             for &d in darts {
@@ -118,7 +120,7 @@ fn three_holes_take_the_order_of_the_domain() {
         let hole = |x: &i32| format!("[[loop]]\nkind = 'circle'\ncenter_m = [{x}, 6]\nradius_m = 1.8\n");
         let holes: String = order.iter().map(hole).collect();
         let domain = domain(&format!("{outer}{holes}"), "kind = 'plane'");
-        let fitted = skeleton::initial(&inline, &domain, Path::new(".")).unwrap();
+        let fitted = skeleton::initial(&inline, &domain, &Inputs::default()).unwrap();
         let mesh = InitialMesh::from_base(&fitted).unwrap().mesh;
         for (darts, x) in mesh.loops()[1..].iter().zip(order) {
             let middle = darts.iter().map(|&d| fitted.vertices[mesh.origin(d).index()][0]).sum::<f64>() / 4.0;

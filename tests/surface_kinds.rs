@@ -2,13 +2,15 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use quadrille::domain::{Domain, DomainParams};
+use quadrille::io::Inputs;
 use quadrille::surface::{self, Surface, SurfaceKind, SurfaceParams};
 use std::path::Path;
 use std::sync::Arc;
 
 fn build(text: &str) -> Result<Arc<dyn Surface>, String> {
     let params: SurfaceParams = toml::from_str(text).map_err(|e| e.to_string())?;
-    surface::build(&params, Path::new("tests/data/surface")).map_err(|e| e.to_string())
+    surface::build(&params, &Inputs::read(Path::new("tests/data/surface"), params.files()))
+        .map_err(|e| e.to_string())
 }
 
 const KINDS: [(&str, SurfaceKind); 8] = [
@@ -123,13 +125,13 @@ fn expressions_that_fail_inside_the_domain() {
         ("ln(x^2 + y^2 - 1)", "`ln(x^2 + y^2 - 1)` gives no finite number"),
     ] {
         let s = build(&format!("kind = 'height'\nexpression = '{expression}'")).unwrap();
-        let error = Domain::resolve(&params, &s, Path::new(".")).err().unwrap().to_string();
+        let error = Domain::resolve(&params, &s, &Inputs::default()).err().unwrap().to_string();
         assert!(error.contains(part), "{error}");
     }
     let small = build("kind = 'mesh'\nfile = 'hypar.obj'").unwrap();
     let far: DomainParams =
         toml::from_str("[[loop]]\nkind = 'circle'\ncenter_m = [40, 40]\nradius_m = 30").unwrap();
-    let error = Domain::resolve(&far, &small, Path::new(".")).err().unwrap().to_string();
+    let error = Domain::resolve(&far, &small, &Inputs::default()).err().unwrap().to_string();
     assert!(
         error.contains("does not cover") && error.contains("the mesh lies within x -60 to 60"),
         "{error}"

@@ -20,19 +20,20 @@ pub struct Args {
 
 /// Prints the resolved config.
 pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
-    let config = args.config.load(&[])?;
-    let study = args.config.study(&config)?;
-    for warning in config::warnings(&config).into_iter().chain(study.warnings()) {
+    let project = args.config.load(&[])?;
+    let study = args.config.study(&project)?;
+    let config = &project.config;
+    for warning in config::warnings(config).into_iter().chain(study.warnings()) {
         console.warn(&warning);
     }
     outln!("# {}: what this config means", args.config.config.display());
-    for line in config::describe(&config) {
+    for line in config::describe(config) {
         outln!("# * {line}");
     }
-    for line in outlook(&study, &config) {
+    for line in outlook(&study, config) {
         outln!("# * {line}");
     }
-    let unused = study.unused_symmetries(&config);
+    let unused = study.unused_symmetries(config);
     if !unused.is_empty() {
         outln!(
             "# * boundary, surface and supports have symmetries that are not used, {}: with them in domain.symmetries, \
@@ -41,6 +42,6 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
         );
     }
     outln!();
-    out!("{}", config::to_toml(&config));
+    out!("{}", config::to_toml(config));
     Ok(ExitCode::SUCCESS)
 }

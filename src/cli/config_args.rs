@@ -1,14 +1,14 @@
 //! Arguments that every command with a config has.
 
 use super::CliError;
-use quadrille::config::{self, Config};
+use quadrille::config::Project;
 use quadrille::study::{Study, StudyError};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// A config, and keys set for this run.
 #[derive(clap::Args)]
 pub struct ConfigArgs {
-    /// The config.
+    /// The config; `-` is stdin.
     #[arg(value_name = "CONFIG.toml")]
     pub config: PathBuf,
     /// Set a key of the config, as in `search.population=24`; may be given several times.
@@ -17,26 +17,20 @@ pub struct ConfigArgs {
 }
 
 impl ConfigArgs {
-    /// Loads the config; `more` are further `key=value` pairs, which win.
-    pub fn load(&self, more: &[String]) -> Result<Config, CliError> {
+    /// Reads the config and the files that it names; `more` are further `key=value` pairs, which win.
+    pub fn load(&self, more: &[String]) -> Result<Project, CliError> {
         let sets: Vec<String> = self.set.iter().chain(more).cloned().collect();
-        Ok(config::load(&self.config, &sets)?)
+        Ok(Project::open(&self.config, &sets)?)
     }
 
-    /// The folder that paths in the config are relative to.
-    pub fn folder(&self) -> &Path {
-        config::folder_of(&self.config)
+    /// Makes a config that was read ready.
+    pub fn study(&self, project: &Project) -> Result<Study, CliError> {
+        Study::of(&project.config, &project.inputs).map_err(|error| located(project, &error))
     }
+}
 
-    /// Makes a loaded config ready.
-    pub fn study(&self, config: &Config) -> Result<Study, CliError> {
-        Study::new(config, self.folder()).map_err(|error| self.located(config, &error))
-    }
-
-    /// What is wrong, with the place of the key that says it.
-    pub fn located(&self, config: &Config, error: &StudyError) -> CliError {
-        let place = config::place_of(&self.config, &self.set, &error.key(config));
-        let place = place.map_or_else(|| self.config.display().to_string(), |place| place.to_string());
-        CliError::Input(format!("{place}: {error}"))
-    }
+/// What is wrong, with the place of the key that says it.
+pub fn located(project: &Project, error: &StudyError) -> CliError {
+    let place = project.place(&error.key(&project.config));
+    CliError::Input(format!("{place}: {error}"))
 }

@@ -1,12 +1,12 @@
 //! `quadrille explain`: what governs a design, where and by how much.
 
-use super::folder_args::{find, open};
+use super::folder_args::{FolderArgs, find};
 use super::{CliError, Console};
 use quadrille::objectives::METRICS;
 use quadrille::output::atomic;
 use quadrille::output::designs::id;
 use quadrille::output::explanation::explanation;
-use quadrille::output::folder::EXPLAINED;
+use quadrille::output::folder::{self, EXPLAINED};
 use quadrille::output::load::Loaded;
 use quadrille::output::number::significant;
 use quadrille::output::results::Developed;
@@ -24,9 +24,8 @@ use std::process::ExitCode;
 /// no picture.
 #[derive(clap::Args)]
 pub struct Args {
-    /// The results folder of a run.
-    #[arg(value_name = "DIR")]
-    folder: PathBuf,
+    #[command(flatten)]
+    run: FolderArgs,
     /// The design: its id, or the beginning of it; any of history.csv.
     #[arg(value_name = "ID")]
     design: String,
@@ -36,8 +35,8 @@ pub struct Args {
 }
 
 /// Tells.
-pub fn run(args: Args, _console: &Console) -> Result<ExitCode, CliError> {
-    let (loaded, study) = open(&args.folder)?;
+pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
+    let (loaded, study) = args.run.look(console)?;
     let row = find(&loaded, &args.design)?;
     outln!("design {}: \"{}\"", id(row.code), row.tokens);
     outln!("expressed \"{}\", generation {}", row.expressed, row.generation);
@@ -68,20 +67,17 @@ pub fn run(args: Args, _console: &Console) -> Result<ExitCode, CliError> {
         also(results, &developed.design.pattern.positions);
     }
     if let Some(picture) = explanation(&developed, &id(row.code)) {
-        let path = args.picture(row);
+        let name = format!("{EXPLAINED}/{}.svg", id(row.code));
+        let path = args.svg.clone().unwrap_or_else(|| args.run.folder.join(&name));
         let made = path.parent().map_or(Ok(()), fs::create_dir_all);
         made.and_then(|()| atomic::write(&path, &picture)).map_err(CliError::write(&path))?;
+        if args.svg.is_none() {
+            folder::list(&args.run.folder, &name, &picture)
+                .map_err(|error| CliError::Failed(error.to_string()))?;
+        }
         outln!("\npicture: {}", path.display());
     }
     Ok(ExitCode::SUCCESS)
-}
-
-impl Args {
-    /// Where the picture of a design goes.
-    fn picture(&self, row: &EvaluatedRow) -> PathBuf {
-        let default = || self.folder.join(EXPLAINED).join(format!("{}.svg", id(row.code)));
-        self.svg.clone().unwrap_or_else(default)
-    }
 }
 
 /// The name of a metric with its unit; each quantity that can be required is one.

@@ -1,6 +1,6 @@
 //! `quadrille export`: a design again, in another format.
 
-use super::folder_args::{find, open, refuse_file};
+use super::folder_args::{FolderArgs, find, refuse_file};
 use super::stdout::print_result;
 use super::{CliError, Console};
 use clap::ValueEnum;
@@ -23,9 +23,8 @@ use std::process::ExitCode;
 /// csv (nodes, members) are two files each and need --out.
 #[derive(clap::Args)]
 pub struct Args {
-    /// The results folder of a run.
-    #[arg(value_name = "DIR")]
-    folder: PathBuf,
+    #[command(flatten)]
+    run: FolderArgs,
     /// The design: its id, or the beginning of it.
     #[arg(long, value_name = "ID")]
     design: String,
@@ -67,7 +66,7 @@ enum Operator {
 /// Makes the design and writes it.
 pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     args.out.as_deref().map_or(Ok(()), refuse_file)?;
-    let (loaded, study) = open(&args.folder)?;
+    let (loaded, study) = args.run.look(console)?;
     let row = find(&loaded, &args.design)?;
     let id = id(row.code);
     let developed = Developed::of(&study, study.topology(&row.tokens), Proof::None)

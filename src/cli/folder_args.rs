@@ -1,13 +1,15 @@
 //! A folder as an argument: one to write into, or a results folder, read back.
 
-use super::CliError;
+use super::{CliError, Console};
 use quadrille::grammar::Tokens;
 use quadrille::mesh::Code;
 use quadrille::output::designs::{digits, id};
-use quadrille::output::load::{Loaded, load};
+use quadrille::output::inputs;
+use quadrille::output::load::{self, Loaded};
+use quadrille::output::lock::Lock;
 use quadrille::search::EvaluatedRow;
 use quadrille::study::Study;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Refuses an --out that is a file, before anything is done for it.
 pub fn refuse_file(out: &Path) -> Result<(), CliError> {
@@ -25,12 +27,56 @@ pub fn folder_exists(file: &Path) -> Result<(), String> {
     }
 }
 
-/// Reads a results folder and makes its config ready.
-pub fn open(folder: &Path) -> Result<(Loaded, Study), CliError> {
-    let loaded = load(folder).map_err(|error| CliError::Input(error.to_string()))?;
-    let study = Study::new(&loaded.config, &loaded.config_folder)
-        .map_err(|error| CliError::Input(format!("{}: {error}", folder.display())))?;
-    Ok((loaded, study))
+/// The results folder of a run, and where its inputs are.
+#[derive(clap::Args)]
+pub struct FolderArgs {
+    /// The results folder of a run.
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+    /// Folder of the files that the config names, where they are no longer as and where they were.
+    #[arg(long, value_name = "DIR")]
+    pub inputs: Option<PathBuf>,
+}
+
+impl FolderArgs {
+    /// Reads the folder as the run stands, and makes its config ready.
+    pub fn look(&self, console: &Console) -> Result<(Loaded, Study), CliError> {
+        let loaded = load::look(&self.folder).map_err(|error| CliError::Input(error.to_string()))?;
+        if loaded.is_unfinished {
+            console.note(&unfinished(&self.folder, &loaded));
+        }
+        let study = self.study(&loaded)?;
+        Ok((loaded, study))
+    }
+
+    /// Reads the tables of the folder and makes the config ready.
+    pub fn load(&self) -> Result<(Loaded, Study), CliError> {
+        let loaded = load::load(&self.folder).map_err(|error| CliError::Input(error.to_string()))?;
+        let study = self.study(&loaded)?;
+        Ok((loaded, study))
+    }
+
+    fn study(&self, loaded: &Loaded) -> Result<Study, CliError> {
+        let Loaded { manifest, config, .. } = loaded;
+        let inputs = inputs::again(manifest, config, self.inputs.as_deref());
+        let inputs = inputs.map_err(|wrong| {
+            CliError::Input(wrong.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
+        })?;
+        Study::of(config, &inputs)
+            .map_err(|error| CliError::Input(format!("{}: {error}", self.folder.display())))
+    }
+}
+
+/// What is said of a run that is not finished.
+pub fn unfinished(folder: &Path, loaded: &Loaded) -> String {
+    let state = if Lock::is_held(folder) { "goes on" } else { "was interrupted" };
+    let counts = &loaded.manifest.counts;
+    format!(
+        "the run in {} {state}: what it had found after generation {}, {} designs evaluated",
+        folder.display(),
+        counts.generations,
+        counts.evaluations
+    )
 }
 
 /// The evaluated design whose id begins with `text`, with its letter or, as in results of quadrille 0.1, without.

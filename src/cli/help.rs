@@ -30,6 +30,7 @@ const EXAMPLES: &[(&str, &[&str])] = &[
         &[
             "quadrille export results/roof --design q3f2a --format vtu --out exported",
             "quadrille export results/roof --design q3f2a --format obj --pattern dual",
+            "quadrille export results/roof --design q3f2a --format json --inputs old/data",
         ],
     ),
     ("explain", &["quadrille explain results/roof q3f2a"]),

@@ -31,9 +31,12 @@ mod progress;
 mod quote;
 mod report;
 mod run;
+mod signals;
 mod skeleton;
 mod topology;
 mod verify;
+mod watch;
+mod writing;
 
 pub use console::{Console, ConsoleArgs};
 pub use error::CliError;

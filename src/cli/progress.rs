@@ -62,6 +62,15 @@ impl Display {
         }
     }
 
+    /// Says a line from another thread.
+    pub fn teller(&self) -> impl Fn(&str) + Send + 'static {
+        let (console, bar) = (self.console, self.bar.clone());
+        move |line| match &bar {
+            Some(bar) => bar.suspend(|| console.note(line)),
+            None => console.note(line),
+        }
+    }
+
     /// Removes the bar.
     pub fn finish(&self) {
         if let Some(bar) = &self.bar {

@@ -4,33 +4,39 @@ use super::config_args::ConfigArgs;
 use super::folder_args::refuse_file;
 use super::progress::{Display, duration};
 use super::quote::quote;
-use super::{CliError, Console, exit};
-use quadrille::config::{Config, to_toml};
-use quadrille::output::folder::{Folder, FolderError, Opening, REPORT};
+use super::watch::Watch;
+use super::writing::WritingDisplay;
+use super::{CliError, Console, exit, signals};
+use quadrille::config::{Config, Project, to_toml};
+use quadrille::output::folder::{Folder, FolderError, Opening, PARETO, REPORT, excel_name};
+use quadrille::output::manifest::Status;
 use quadrille::output::number::significant;
 use quadrille::output::obstacles::Obstacles;
 use quadrille::output::report;
-use quadrille::output::results::{self, Run, Sitting};
+use quadrille::output::results::{self, Run};
+use quadrille::output::sitting::Sitting;
 use quadrille::output::table::Dialect;
 use quadrille::random;
 use quadrille::search::{self, Ended, Outcome, Settings, StopFlag, Store, ThreadServer};
 use quadrille::study::Study;
 use std::io::ErrorKind;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::time::{Instant, SystemTime};
+use std::time::Instant;
 
 /// Evolve designs and write the Pareto front, all evaluated designs, meshes, pictures and a report.
 ///
 /// The search is NSGA-II on strings of the grammar. Results go to `results/<name of the config>/` below the current
 /// folder, or to --out. The same config and seed give the same results, with any number of threads. Ctrl-C (or
-/// SIGTERM) ends the run after the evaluations in flight; `--resume` goes on from there with the same result. A
-/// second Ctrl-C aborts at once.
+/// SIGTERM, SIGHUP) ends the run after the evaluations in flight; `--resume` goes on from there with the same result. A
+/// second one aborts at once, if it comes more than a second later.
 ///
 /// The folder then holds pareto.csv (the front), history.csv (every evaluated design, and why it failed),
 /// generations.csv (convergence), operators.csv, report.html (open it in a browser), designs/ (each design of the front
 /// as OBJ, COMPAS JSON, SVG, VTU, and CSV of nodes and members), design_explorer/data.csv and manifest.json. A folder that
-/// holds a run, or something else under these names, is not overwritten without --force.
+/// holds a run, or something else under these names, is not overwritten without --force. What the run did not write is never
+/// removed, and a file of its own that you changed is kept as NAME.bak. The config and the files that it names are read once, at
+/// the start.
 #[derive(clap::Args)]
 pub struct Args {
     #[command(flatten)]
@@ -66,41 +72,61 @@ enum CsvDialect {
 
 /// Runs the search and writes the results folder.
 pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
-    let mut config = args.config.load(&args.sets())?;
-    let study = args.config.study(&config)?;
+    let mut project = args.config.load(&args.sets())?;
+    let study = args.config.study(&project)?;
     // Before the folder is touched: a run without threads leaves it as it was.
-    let server = ThreadServer::new(&study, config.run.threads)?;
-    let folder = args.open_folder(&config)?;
-    for warning in study.warnings() {
+    let server = ThreadServer::new(&study, project.config.run.threads)?;
+    let path = args.folder(&project.config);
+    refuse_file(&path)?;
+    let seed = fix_seed(&mut project.config, &path, args.resume)?;
+    let mut folder = args.open(&path, &project)?;
+    for warning in study.warnings().into_iter().chain(folder.unlocked()) {
         console.warn(&warning);
     }
-    fix_seed(&mut config, &folder, args.resume, console)?;
-    let record =
-        results::record(&config, args.config.folder()).map_err(|e| CliError::Input(e.to_string()))?;
-    let mut store = open_store(&folder, record, args.resume)?;
-    let (started, clock) = (SystemTime::now(), Instant::now());
-    let (outcome, threads) = evolve(&study, server, &config, &mut store, console)?;
-    let sitting = Sitting { started, seconds: clock.elapsed().as_secs_f64(), threads };
-    let run = Run { study: &study, config: &config, config_folder: args.config.folder(), outcome: &outcome };
-    let failed = |error: results::ResultsError| CliError::Failed(error.to_string());
-    if let Ended::Interrupted(signal) = outcome.ended {
-        run.write_interrupted(&folder, &sitting).map_err(failed)?;
+    seed.iter().for_each(|told| console.note(told));
+    let (mut store, sitting) = args.begin(&mut folder, &project)?;
+    folder.take_warnings().iter().for_each(|warning| console.warn(warning));
+    let stop = StopFlag::new();
+    let clock = Instant::now();
+    let mut watch =
+        Watch { display: Display::new(&project.config, study.baseline(), *console), sitting, folder };
+    let outcome = evolve(&study, server, &project.config, &mut store, &stop, &mut watch, console)?;
+    let Watch { mut sitting, mut folder, .. } = watch;
+    let dialect = args.dialect(&folder);
+    let run = Run { study: &study, project: &project, outcome: &outcome, dialect };
+    let is_cut = matches!(outcome.ended, Ended::Interrupted(_));
+    let names = if is_cut { run.table_names() } else { run.names() };
+    sitting.searched(&mut folder, &outcome, store.worked(), names).map_err(failed)?;
+    let is_whole = if is_cut {
+        run.write_tables(&mut folder).map_err(failed)?;
+        false
+    } else {
+        console.note(&match outcome.front.len() {
+            0 => "writing the designs that came nearest".to_owned(),
+            count => format!("writing {count} designs of the front"),
+        });
+        let threads = sitting.threads();
+        run.write(&mut folder, threads, &mut WritingDisplay::new(&stop, *console)).map_err(failed)?
+    };
+    let status = if is_whole { Status::Finished } else { Status::Interrupted };
+    sitting.end(&mut folder, status).map_err(failed)?;
+    folder.take_warnings().iter().for_each(|warning| console.warn(warning));
+    if !is_whole {
         console.always(&format!("interrupted; go on with: {}", args.resume_command(&folder)));
-        return Ok(ExitCode::from(exit::interrupted(signal)));
+        return Ok(ExitCode::from(exit::interrupted(stop.raised().unwrap_or_default())));
     }
-    let dialect = args.csv_dialect.map_or(Dialect::Canonical, |CsvDialect::ExcelEu| Dialect::ExcelEu);
-    console.note(&match outcome.front.len() {
-        0 => "writing the designs that came nearest".to_owned(),
-        count => format!("writing {count} designs of the front"),
-    });
-    run.write(&folder, &sitting, dialect).map_err(failed)?;
     drop(store);
     summarise(&study, &outcome, &folder, clock, console);
     let code = if outcome.front.is_empty() { exit::NOTHING_FEASIBLE } else { exit::DONE };
     // The report is made from the folder: no need to hold every design twice.
     drop(outcome);
-    write_report(&folder)?;
+    write_report(&mut folder)?;
     Ok(ExitCode::from(code))
+}
+
+/// An error of the work itself; for `map_err`.
+fn failed(error: impl std::fmt::Display) -> CliError {
+    CliError::Failed(error.to_string())
 }
 
 impl Args {
@@ -114,22 +140,56 @@ impl Args {
         pairs.into_iter().flatten().collect()
     }
 
-    /// The results folder, locked.
-    fn open_folder(&self, config: &Config) -> Result<Folder, CliError> {
+    /// Where the results go.
+    fn folder(&self, config: &Config) -> PathBuf {
         let name = config.run.name.as_deref().unwrap_or("run");
-        let path = self.out.clone().unwrap_or_else(|| PathBuf::from("results").join(name));
+        self.out.clone().unwrap_or_else(|| PathBuf::from("results").join(name))
+    }
+
+    /// The results folder, locked, of a run that can be begun or gone on with there.
+    fn open(&self, path: &Path, project: &Project) -> Result<Folder, CliError> {
         let opening = match (self.resume, self.force) {
             (true, _) => Opening::Resume,
             (_, true) => Opening::Overwrite,
             _ => Opening::New,
         };
-        refuse_file(&path)?;
-        Folder::open(&path, opening).map_err(|error| match error {
+        if self.resume {
+            Store::check(path, &results::record(project)).map_err(refused)?;
+        }
+        Folder::open(path, opening).map_err(|error| match error {
             FolderError::Io { ref source, .. } if source.kind() == ErrorKind::StorageFull => {
                 CliError::Failed(error.to_string())
             }
             refused => CliError::Input(refused.to_string()),
         })
+    }
+
+    /// Makes the folder this run's.
+    fn begin(&self, folder: &mut Folder, project: &Project) -> Result<(Store, Sitting), CliError> {
+        let record = results::record(project);
+        let threads = match project.config.run.threads {
+            0 => std::thread::available_parallelism().map_or(1, usize::from),
+            threads => threads,
+        };
+        let begin = |folder: &mut Folder| -> Result<Sitting, CliError> {
+            folder.begin().map_err(failed)?;
+            Sitting::begin(folder, project, threads).map_err(failed)
+        };
+        if self.resume {
+            let store = Store::resume(folder.path(), record).map_err(refused)?;
+            Ok((store, begin(folder)?))
+        } else {
+            let sitting = begin(folder)?;
+            Ok((Store::create(folder.path(), record).map_err(refused)?, sitting))
+        }
+    }
+
+    /// Which copies of the tables are wanted: those that are asked for, or that there are already.
+    fn dialect(&self, folder: &Folder) -> Dialect {
+        match self.csv_dialect {
+            None if !folder.lists(&excel_name(PARETO)) => Dialect::Canonical,
+            _ => Dialect::ExcelEu,
+        }
     }
 
     /// What a user types to go on.
@@ -147,41 +207,39 @@ impl Args {
     }
 }
 
-/// The seed of the config, else that of the run to be resumed, else one drawn and told.
-fn fix_seed(config: &mut Config, folder: &Folder, resume: bool, console: &Console) -> Result<(), CliError> {
+/// A store that cannot be used; for `map_err`.
+fn refused(error: search::StoreError) -> CliError {
+    match error {
+        search::StoreError::Io { .. } => CliError::Failed(error.to_string()),
+        refused => CliError::Input(refused.to_string()),
+    }
+}
+
+/// The seed of the config, else that of the run to be resumed, else one drawn; what is told of one not in the config.
+fn fix_seed(config: &mut Config, folder: &Path, resume: bool) -> Result<Option<String>, CliError> {
     if config.run.seed.is_some() {
-        return Ok(());
+        return Ok(None);
     }
     let recorded = match resume {
-        true => Store::recorded_config(folder.path()).map_err(|error| CliError::Input(error.to_string()))?,
+        true => Store::recorded_config(folder).map_err(|error| CliError::Input(error.to_string()))?,
         false => None,
     };
     let recorded = recorded.and_then(|config| config.get("run")?.get("seed")?.as_u64());
     let seed = recorded.unwrap_or_else(random::fresh_seed);
-    console
-        .note(&format!("seed {seed}{}", if recorded.is_some() { ", of the run resumed" } else { ", drawn" }));
     config.run.seed = Some(seed);
-    Ok(())
+    Ok(Some(format!("seed {seed}{}", if recorded.is_some() { ", of the run resumed" } else { ", drawn" })))
 }
 
-fn open_store(folder: &Folder, record: serde_json::Value, resume: bool) -> Result<Store, CliError> {
-    let opened =
-        if resume { Store::resume(folder.path(), record) } else { Store::create(folder.path(), record) };
-    opened.map_err(|error| match error {
-        search::StoreError::Io { .. } => CliError::Failed(error.to_string()),
-        refused => CliError::Input(refused.to_string()),
-    })
-}
-
-/// Runs the search; gives the outcome and the number of threads.
+/// Runs the search.
 fn evolve(
     study: &Study,
     server: ThreadServer<'_, Study>,
     config: &Config,
     store: &mut Store,
+    stop: &StopFlag,
+    watch: &mut Watch,
     console: &Console,
-) -> Result<(Outcome, usize), CliError> {
-    let failed = |error: &dyn std::fmt::Display| CliError::Failed(error.to_string());
+) -> Result<Outcome, CliError> {
     let settings = Settings {
         search: config.search.clone(),
         objectives: study.objectives.len(),
@@ -189,31 +247,27 @@ fn evolve(
         reference: config.objectives.reference.clone(),
         seed: config.run.seed.unwrap_or_default(),
     };
-    let stop = StopFlag::new();
-    stop.install().map_err(|error| failed(&error))?;
-    let threads = match config.run.threads {
-        0 => std::thread::available_parallelism().map_or(1, usize::from),
-        threads => threads,
-    };
+    let tell = watch.display.teller();
+    let told = "ending with the evaluations in flight; another signal after a second aborts at once";
+    signals::install(stop, move || tell(told)).map_err(failed)?;
     console.note(&format!(
-        "{}: population {}, {} generations, {threads} threads, minimising {}",
+        "{}: population {}, {} generations, {} threads, minimising {}",
         config.run.name.as_deref().unwrap_or_default(),
         config.search.population,
         config.search.generations,
+        watch.sitting.threads(),
         config.objectives.minimise.join(", ")
     ));
     console.detail(&to_toml(config));
-    let mut display = Display::new(config, study.baseline(), *console);
-    let outcome = search::run(study, &server, &settings, &stop, Some(store), &mut display);
-    display.finish();
-    Ok((outcome.map_err(|error| failed(&error))?, threads))
+    let outcome = search::run(study, &server, &settings, stop, Some(store), watch);
+    watch.display.finish();
+    outcome.map_err(failed)
 }
 
-fn write_report(folder: &Folder) -> Result<(), CliError> {
-    let failed = |error: &dyn std::fmt::Display| CliError::Failed(error.to_string());
-    let data = report::read(folder.path()).map_err(|error| failed(&error))?;
-    let page = report::render(&data).map_err(|error| failed(&error))?;
-    folder.write(REPORT, page.as_bytes()).map_err(|error| failed(&error))
+fn write_report(folder: &mut Folder) -> Result<(), CliError> {
+    let data = report::read(folder.path()).map_err(failed)?;
+    let page = report::render(&data).map_err(failed)?;
+    folder.write(REPORT, page.as_bytes()).map_err(failed)
 }
 
 /// What was found, on stdout: the folder, and the best of each objective.

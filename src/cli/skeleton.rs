@@ -1,15 +1,14 @@
 //! `quadrille skeleton`: the initial mesh of a config.
 
-use super::config_args::ConfigArgs;
+use super::config_args::{ConfigArgs, located};
 use super::{CliError, Console};
-use quadrille::config::Config;
+use quadrille::config::Project;
 use quadrille::domain::Domain;
 use quadrille::io::obj;
 use quadrille::mesh::BaseMesh;
 use quadrille::study::StudyError;
 use quadrille::{skeleton, surface};
 use serde_json::json;
-use std::path::Path;
 use std::process::ExitCode;
 
 /// Print the initial mesh of a config: from the medial axis of its domain, or as the config gives it.
@@ -37,9 +36,8 @@ enum Format {
 
 /// Prints the mesh.
 pub fn run(args: Args, _console: &Console) -> Result<ExitCode, CliError> {
-    let config = args.config.load(&[])?;
-    let (domain, base) =
-        initial_mesh(&config, args.config.folder()).map_err(|error| args.config.located(&config, &error))?;
+    let project = args.config.load(&[])?;
+    let (domain, base) = initial_mesh(&project).map_err(|error| located(&project, &error))?;
     let file = &args.config.config;
     let name = file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
     match args.format {
@@ -54,10 +52,10 @@ pub fn run(args: Args, _console: &Console) -> Result<ExitCode, CliError> {
 }
 
 /// The domain and its mesh, which need nothing of the structure and the search.
-fn initial_mesh(config: &Config, folder: &Path) -> Result<(Domain, BaseMesh), StudyError> {
-    let surface = surface::build(&config.surface, folder)?;
-    let domain = Domain::resolve_for(&config.domain, &surface, folder, config.pattern.grain())?;
-    let base = skeleton::initial(&config.topology, &domain, folder)?;
+fn initial_mesh(Project { config, inputs, .. }: &Project) -> Result<(Domain, BaseMesh), StudyError> {
+    let surface = surface::build(&config.surface, inputs)?;
+    let domain = Domain::resolve_for(&config.domain, &surface, inputs, config.pattern.grain())?;
+    let base = skeleton::initial(&config.topology, &domain, inputs)?;
     Ok((domain, base))
 }
 

@@ -1,6 +1,6 @@
 //! `quadrille verify`: evaluate rows of a results folder again and compare every number.
 
-use super::folder_args::{find, open, same_code};
+use super::folder_args::{FolderArgs, find, same_code};
 use super::{CliError, Console, exit};
 use quadrille::mesh::Code;
 use quadrille::objectives::METRICS;
@@ -11,7 +11,6 @@ use quadrille::search::{EvaluatedRow, Evaluation, Problem, evaluate, thread_pool
 use quadrille::study::Study;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
-use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Largest relative difference that other processors may make.
@@ -24,9 +23,8 @@ const TOLERANCE: f64 = 1e-6;
 /// which the two files differ; exit code 1 if there is any.
 #[derive(clap::Args)]
 pub struct Args {
-    /// The results folder of a run.
-    #[arg(value_name = "DIR")]
-    folder: PathBuf,
+    #[command(flatten)]
+    run: FolderArgs,
     /// One design only: its id, or the beginning of it; any of history.csv.
     #[arg(long, value_name = "ID")]
     design: Option<String>,
@@ -34,9 +32,9 @@ pub struct Args {
 
 /// Evaluates and compares.
 pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
-    let (loaded, study) = open(&args.folder)?;
+    let (loaded, study) = args.run.load()?;
     let mut told =
-        contradictions(&args.folder, &loaded).map_err(|error| CliError::Input(error.to_string()))?;
+        contradictions(&args.run.folder, &loaded).map_err(|error| CliError::Input(error.to_string()))?;
     let rows: Vec<&EvaluatedRow> = match &args.design {
         Some(design) => {
             let row = find(&loaded, design)?;

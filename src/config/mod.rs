@@ -7,6 +7,7 @@ mod describe;
 mod error;
 mod names;
 mod path;
+mod project;
 mod reference;
 mod resolved;
 mod rules;
@@ -16,8 +17,9 @@ mod source;
 pub use describe::{describe, warnings};
 pub use error::{ConfigError, Located, Place, Problem};
 pub use path::{KeyPath, Segment};
+pub use project::{Project, folder_of};
 pub use reference::reference;
-pub use resolved::{differences, hash, hex, input_files, to_toml};
+pub use resolved::{differences, hash, input_files, read_inputs, to_toml};
 pub use schema::config_schema;
 
 use crate::domain::params::DomainParams;
@@ -27,7 +29,6 @@ use crate::structure::params::StructureParams;
 use crate::surface::params::SurfaceParams;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use source::Source;
 use std::path::Path;
 
 /// The version of the config format that this program reads.
@@ -92,41 +93,12 @@ fn plane() -> SurfaceParams {
 
 /// Reads a config file with `key=value` arguments laid over it, checks it, and fills in what depends on other keys.
 ///
-/// Paths inside stay relative to the folder of `file`. Shapes and units are those of the parameters of each stage.
+/// Paths inside stay relative to the folder of `file`. Shapes and units are those of the parameters of each stage. Who also
+/// wants the files that it names as they were then opens a [`Project`].
 ///
 /// # Errors
 /// [`ConfigError`]: the file cannot be read, is not TOML, or says something that is not allowed; then all problems
 /// found are listed.
 pub fn load(file: &Path, sets: &[String]) -> Result<Config, ConfigError> {
-    let stem = file.file_stem().map_or("run".into(), |stem| stem.to_string_lossy().into_owned());
-    resolve(&Source::read(file, sets)?, &stem, folder_of(file))
-}
-
-/// Where a config file says something, for errors that only show when it is put to use.
-pub fn place_of(file: &Path, sets: &[String], key: &str) -> Option<Place> {
-    Source::read(file, sets).ok().map(|source| source.place(&KeyPath::of(key)))
-}
-
-/// The folder to which the paths in a config file are relative.
-pub fn folder_of(file: &Path) -> &Path {
-    match file.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    }
-}
-
-fn resolve(source: &Source, stem: &str, folder: &Path) -> Result<Config, ConfigError> {
-    let problems = schema::check(source.values());
-    if !problems.is_empty() {
-        return Err(source.locate(problems));
-    }
-    let mut config: Config = serde_path_to_error::deserialize(source.values().clone()).map_err(|error| {
-        // The schema lets nothing through that serde refuses; should it, the key is still named.
-        let key = KeyPath::of(&error.path().to_string());
-        source.locate(vec![Problem::new(key, error.inner().message().to_owned())])
-    })?;
-    config.run.name.get_or_insert_with(|| stem.to_owned());
-    resolved::fill_in(&mut config, source.values());
-    let problems = rules::check(&config, folder);
-    if problems.is_empty() { Ok(config) } else { Err(source.locate(problems)) }
+    Ok(Project::open(file, sets)?.config)
 }

@@ -1,13 +1,11 @@
 //! A config with its defaults: written back, hashed, compared.
 
 use super::{Config, KeyPath, names};
-use crate::domain::params::LoopParams;
-use crate::geometry::params::{FREE_SWEEPS, InitialMesh, RelaxKind};
+use crate::geometry::params::{FREE_SWEEPS, RelaxKind};
+use crate::io::{Inputs, sha256};
 use crate::structure::params::{HeightParams, SectionParams, StructureParams};
 use crate::surface::params::SurfaceParams;
-use sha2::{Digest, Sha256};
-use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 /// Fills in defaults that depend on other keys; `given` is the config as written.
@@ -57,32 +55,17 @@ pub fn to_toml(config: &Config) -> String {
 
 /// SHA-256 of [`to_toml`], in hex.
 pub fn hash(config: &Config) -> String {
-    hex(&Sha256::digest(to_toml(config).as_bytes()))
-}
-
-/// Bytes as hexadecimal digits.
-pub fn hex(bytes: &[u8]) -> String {
-    bytes.iter().fold(String::new(), |mut hex, byte| {
-        let _ = write!(hex, "{byte:02x}");
-        hex
-    })
+    sha256(to_toml(config).as_bytes())
 }
 
 /// The files that a config names, relative to its folder.
 pub fn input_files(config: &Config) -> Vec<PathBuf> {
-    let outlines = config.domain.loops.iter().filter_map(|boundary_loop| match boundary_loop {
-        LoopParams::Obj { file, .. } => Some(file),
-        _ => None,
-    });
-    let surface = match &config.surface {
-        SurfaceParams::Mesh { file, .. } => Some(file),
-        _ => None,
-    };
-    let initial = match &config.topology.initial {
-        InitialMesh::File { file, .. } => Some(file),
-        _ => None,
-    };
-    outlines.chain(surface).chain(initial).cloned().collect()
+    [config.domain.files(), config.surface.files(), config.topology.files()].concat()
+}
+
+/// Reads the files that a config names; `folder` is where relative paths start.
+pub fn read_inputs(config: &Config, folder: &Path) -> Inputs {
+    Inputs::read(folder, input_files(config))
 }
 
 /// The keys in which two configs differ, in the order of the file.

@@ -7,6 +7,7 @@ use super::{Config, VERSION};
 use crate::domain::params::{Corners, LoopParams};
 use crate::geometry::params::{Density, InitialMesh, RelaxKind};
 use crate::grammar::Tokens;
+use crate::io::{Inputs, ReadError};
 use crate::objectives::{self, METRICS};
 use crate::search::params::RuleParams;
 use crate::structure::params::{
@@ -16,9 +17,9 @@ use crate::surface::params::SurfaceParams;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// All that is wrong with a config of which each key alone is right. `folder` is where relative paths start.
-pub fn check(config: &Config, folder: &Path) -> Vec<Problem> {
-    let mut rules = Rules { folder, problems: Vec::new() };
+/// All that is wrong with a config of which each key alone is right. `inputs` are the files that it names.
+pub fn check(config: &Config, inputs: &Inputs) -> Vec<Problem> {
+    let mut rules = Rules { inputs, problems: Vec::new() };
     rules.run(config);
     rules.domain(config);
     rules.surface(&config.surface);
@@ -33,7 +34,7 @@ pub fn check(config: &Config, folder: &Path) -> Vec<Problem> {
 }
 
 struct Rules<'a> {
-    folder: &'a Path,
+    inputs: &'a Inputs,
     problems: Vec<Problem>,
 }
 
@@ -42,12 +43,18 @@ impl Rules<'_> {
         self.problems.push(Problem::new(key.into(), message));
     }
 
-    fn file_exists(&mut self, key: impl Into<KeyPath>, file: &Path) {
-        let full = self.folder.join(file);
-        if !full.is_file() {
-            let message = format!("found \"{}\", but there is no file {}", file.display(), full.display());
-            self.refuse(key, message);
-        }
+    fn file_is_read(&mut self, key: impl Into<KeyPath>, file: &Path) {
+        let Err(error) = self.inputs.get(file) else { return };
+        let name = file.display();
+        self.refuse(
+            key,
+            match error {
+                ReadError::Open { file, .. } if !file.is_file() => {
+                    format!("found \"{name}\", but there is no file {}", file.display())
+                }
+                error => format!("found \"{name}\", which cannot be read: {error}"),
+            },
+        );
     }
 
     fn run(&mut self, config: &Config) {
@@ -71,7 +78,7 @@ impl Rules<'_> {
                     self.points(points_m, &key.key("points_m"));
                     self.corners(corners, points_m.len(), &key.key("corners"));
                 }
-                LoopParams::Obj { file, .. } => self.file_exists(key.key("file"), file),
+                LoopParams::Obj { file, .. } => self.file_is_read(key.key("file"), file),
                 LoopParams::Circle { .. } | LoopParams::Ellipse { .. } => {}
             }
         }
@@ -109,13 +116,13 @@ impl Rules<'_> {
 
     fn surface(&mut self, surface: &SurfaceParams) {
         if let SurfaceParams::Mesh { file, .. } = surface {
-            self.file_exists("surface.file", file);
+            self.file_is_read("surface.file", file);
         }
     }
 
     fn topology(&mut self, initial: &InitialMesh) {
         match initial {
-            InitialMesh::File { file, .. } => self.file_exists("topology.initial.file", file),
+            InitialMesh::File { file, .. } => self.file_is_read("topology.initial.file", file),
             InitialMesh::Inline { vertices, faces, .. } => {
                 let key = KeyPath::of("topology.initial.faces");
                 for (f, face) in faces.iter().enumerate() {

@@ -7,6 +7,7 @@ use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
 
 /// A parsed config file and the `--set` arguments laid over it.
+#[derive(Debug)]
 pub struct Source {
     file: PathBuf,
     text: String,
@@ -15,13 +16,16 @@ pub struct Source {
 }
 
 impl Source {
-    /// Reads a file and lays `key=value` arguments over it.
+    /// Reads a file, or stdin where it is called `-`, and lays `key=value` arguments over it.
     ///
     /// # Errors
     /// If the file cannot be read or is not TOML, or an argument is not `key=value` with a key that can be set.
     pub fn read(file: &Path, sets: &[String]) -> Result<Self, ConfigError> {
-        let text = std::fs::read_to_string(file)
-            .map_err(|source| ConfigError::Read { file: file.to_path_buf(), source })?;
+        let read = match file == Path::new("-") {
+            true => std::io::read_to_string(std::io::stdin()),
+            false => std::fs::read_to_string(file),
+        };
+        let text = read.map_err(|source| ConfigError::Read { file: file.to_path_buf(), source })?;
         Self::parse(file, text, sets)
     }
 

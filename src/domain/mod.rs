@@ -16,10 +16,10 @@ pub use error::DomainError;
 pub use params::{Corners, DomainParams, LoopParams, Symmetry};
 pub use side::Side;
 
+use crate::io::Inputs;
 use crate::surface::Surface;
 use curve::Curve;
 use std::f64::consts::PI;
-use std::path::Path;
 use std::sync::Arc;
 
 /// How fine the patterns on a domain are to be: what is short on its boundary is short against them.
@@ -58,7 +58,7 @@ pub struct Domain {
 }
 
 impl Domain {
-    /// Makes the domain of a config on its surface and checks both against each other; files are relative to `base_dir`. Corners
+    /// Makes the domain of a config on its surface and checks both against each other; the files that it names are among `inputs`. Corners
     /// that are to be found are single kinks: no pattern is in view that would tell what a short way is.
     ///
     /// # Errors
@@ -66,13 +66,13 @@ impl Domain {
     pub fn resolve(
         params: &DomainParams,
         surface: &Arc<dyn Surface>,
-        base_dir: &Path,
+        inputs: &Inputs,
     ) -> Result<Self, DomainError> {
-        Self::resolve_for(params, surface, base_dir, Grain::Length(0.0))
+        Self::resolve_for(params, surface, inputs, Grain::Length(0.0))
     }
 
-    /// Makes the domain of a config on its surface, for patterns of a grain, and checks both against each other; files are
-    /// relative to `base_dir`.
+    /// Makes the domain of a config on its surface, for patterns of a grain, and checks both against each other; the
+    /// files that it names are among `inputs`.
     ///
     /// A loop given clockwise is turned round, its first point stays the first. Where the surface is not free, the boundary is the
     /// plan curve lifted onto it and a given z does not count. Corners that are to be found are where the curve turns within a
@@ -83,7 +83,7 @@ impl Domain {
     pub fn resolve_for(
         params: &DomainParams,
         surface: &Arc<dyn Surface>,
-        base_dir: &Path,
+        inputs: &Inputs,
         grain: Grain,
     ) -> Result<Self, DomainError> {
         if params.loops.is_empty() {
@@ -93,7 +93,7 @@ impl Domain {
             .loops
             .iter()
             .enumerate()
-            .map(|(i, given)| read::curve(i, given, base_dir))
+            .map(|(i, given)| read::curve(i, given, inputs))
             .collect::<Result<Vec<_>, _>>()?
             .into_iter()
             .unzip();

@@ -22,6 +22,17 @@ pub struct DomainParams {
     pub loops: Vec<LoopParams>,
 }
 
+impl DomainParams {
+    /// The files that it names.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let file = |boundary_loop: &LoopParams| match boundary_loop {
+            LoopParams::Obj { file, .. } => Some(file.clone()),
+            _ => None,
+        };
+        self.loops.iter().filter_map(file).collect()
+    }
+}
+
 /// A symmetry of the domain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]

@@ -4,8 +4,7 @@ use super::curve::{Curve, signed_area};
 use super::error::DomainError;
 use super::kinks;
 use super::params::{CornerRule, Corners, LoopParams};
-use crate::io::{LengthUnit, obj};
-use std::path::Path;
+use crate::io::{Input, Inputs, LengthUnit, obj};
 
 /// What tells the corners of a curve.
 pub(super) enum Marked {
@@ -30,7 +29,7 @@ impl Marked {
 pub(super) fn curve(
     number: usize,
     given: &LoopParams,
-    base_dir: &Path,
+    inputs: &Inputs,
 ) -> Result<(Curve, Marked), DomainError> {
     match given {
         LoopParams::Polyline { points_m, corners, corner_angle_deg } => {
@@ -59,7 +58,8 @@ pub(super) fn curve(
             ))
         }
         LoopParams::Obj { file, unit, polyline: index, corners, corner_angle_deg } => {
-            let points = obj_points(number, &base_dir.join(file), *unit, *index)?;
+            let read = inputs.get(file).map_err(|error| DomainError::File { loop_number: number, error })?;
+            let points = obj_points(number, read, *unit, *index)?;
             polyline(number, points, corners, *corner_angle_deg)
         }
     }
@@ -94,12 +94,12 @@ fn point(loop_number: usize, given: &[f64], what: impl Fn() -> String) -> Result
 /// exporters write that vertex twice.
 fn obj_points(
     loop_number: usize,
-    file: &Path,
+    input: Input<'_>,
     unit: LengthUnit,
     index: usize,
 ) -> Result<Vec<[f64; 3]>, DomainError> {
-    let obj = obj::read(file, unit).map_err(|error| DomainError::File { loop_number, error })?;
-    let name = || file.display().to_string();
+    let obj = obj::read(input, unit).map_err(|error| DomainError::File { loop_number, error })?;
+    let name = || input.file.display().to_string();
     let Some(polyline) = obj.polylines.get(index) else {
         let found = obj.polylines.len();
         return Err(DomainError::NoSuchPolyline { loop_number, file: name(), polyline: index, found });

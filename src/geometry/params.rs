@@ -4,6 +4,7 @@ use crate::domain::params::LengthUnit;
 use crate::domain::{Domain, Grain};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
 
 /// How the canonical mesh becomes a dense pattern (GEOMETRY §2).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -163,6 +164,16 @@ pub struct TopologyParams {
     pub pinched: Pinched,
 }
 
+impl TopologyParams {
+    /// The files that it names.
+    pub fn files(&self) -> Vec<PathBuf> {
+        match &self.initial {
+            InitialMesh::File { file, .. } => vec![file.clone()],
+            _ => Vec::new(),
+        }
+    }
+}
+
 impl Default for TopologyParams {
     fn default() -> Self {
         Self {
@@ -183,7 +194,7 @@ pub enum InitialMesh {
     /// An OBJ, COMPAS JSON or base-mesh JSON file.
     File {
         /// The file, relative to the config.
-        file: std::path::PathBuf,
+        file: PathBuf,
         /// Unit of the file's coordinates: `m` (the default), `cm`, `mm`, `ft` or `in`.
         #[serde(default, skip_serializing_if = "LengthUnit::is_metre")]
         unit: LengthUnit,

@@ -1,19 +1,17 @@
 //! Meshes in COMPAS JSON: 2.x, the 1.x wrapper, and the bare dictionaries before it (ECOSYSTEM §3a).
 
-use super::{ReadError, read_bytes};
+use super::{Input, ReadError};
 use crate::mesh::BaseMesh;
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
-use std::path::Path;
 
 /// Reads the first mesh of a file: vertices in the order of their keys, faces in that of theirs, and the poles of a COMPAS
 /// pseudo-quad mesh (`face_pole`).
 ///
 /// # Errors
-/// A file that cannot be opened, broken JSON with its line, no mesh in it, or the key whose value is wrong.
-pub fn read(file: &Path) -> Result<BaseMesh, ReadError> {
-    let bytes = read_bytes(file)?;
-    let value: Value = serde_json::from_slice(&bytes).map_err(|e| ReadError::Line {
+/// Broken JSON with its line, no mesh in it, or the key whose value is wrong.
+pub fn read(Input { file, bytes }: Input<'_>) -> Result<BaseMesh, ReadError> {
+    let value: Value = serde_json::from_slice(bytes).map_err(|e| ReadError::Line {
         file: file.to_owned(),
         line: e.line(),
         reason: e.to_string(),

@@ -1,12 +1,14 @@
-//! Mesh files as plain arrays: OBJ and COMPAS JSON.
+//! Files that a config names, and mesh files as plain arrays: OBJ and COMPAS JSON.
 
 pub mod compas;
+mod inputs;
 pub mod obj;
 mod unit;
 
+pub use inputs::{Input, Inputs, found, hex, sha256};
 pub use unit::LengthUnit;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Why a file cannot be read: names the file and, where there is one, the line (from 1).
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
@@ -37,12 +39,4 @@ pub enum ReadError {
         /// What is wrong.
         reason: String,
     },
-}
-
-/// The bytes of a file.
-///
-/// # Errors
-/// [`ReadError::Open`].
-pub(crate) fn read_bytes(file: &Path) -> Result<Vec<u8>, ReadError> {
-    std::fs::read(file).map_err(|e| ReadError::Open { file: file.to_owned(), reason: e.to_string() })
 }

@@ -3,11 +3,10 @@
 //! What exporters really do (ECOSYSTEM §3b): `a/b/c` corners, negative indices, `\`-continued lines, CRLF, comments in other
 //! encodings, and curves in pieces of two vertices. All of that is read; free-form geometry, groups and materials are left out.
 
-use super::{LengthUnit, ReadError, read_bytes};
+use super::{Input, LengthUnit, ReadError};
 use crate::mesh::BaseMesh;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::path::Path;
 
 /// What an OBJ file holds, vertex numbers from 0.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -29,11 +28,10 @@ pub struct ObjFile {
 /// Reads a file whose coordinates have the given unit.
 ///
 /// # Errors
-/// A file that cannot be opened, or the first line that is wrong.
-pub fn read(file: &Path, unit: LengthUnit) -> Result<ObjFile, ReadError> {
-    let bytes = read_bytes(file)?;
-    let mut obj = parse(&String::from_utf8_lossy(&bytes)).map_err(|(line, reason)| ReadError::Line {
-        file: file.to_owned(),
+/// The first line that is wrong.
+pub fn read(input: Input<'_>, unit: LengthUnit) -> Result<ObjFile, ReadError> {
+    let mut obj = parse(&String::from_utf8_lossy(input.bytes)).map_err(|(line, reason)| ReadError::Line {
+        file: input.file.to_owned(),
         line,
         reason,
     })?;

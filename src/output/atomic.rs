@@ -56,10 +56,15 @@ fn readable_by_all(builder: &mut tempfile::Builder<'_, '_>) {
 #[cfg(not(unix))]
 fn readable_by_all(_builder: &mut tempfile::Builder<'_, '_>) {}
 
-/// The rename itself is on disk only when the folder is; Windows has no such call.
+/// The rename itself is on disk only when the folder is; Windows has no such call, nor have some network file systems, and
+/// a folder that may be written to need not be readable.
 #[cfg(unix)]
 fn sync_folder(folder: &Path) -> io::Result<()> {
-    File::open(folder)?.sync_all()
+    use io::ErrorKind::{InvalidInput, PermissionDenied, Unsupported};
+    match File::open(folder).and_then(|folder| folder.sync_all()) {
+        Err(error) if !matches!(error.kind(), InvalidInput | PermissionDenied | Unsupported) => Err(error),
+        _ => Ok(()),
+    }
 }
 
 #[cfg(not(unix))]

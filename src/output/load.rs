@@ -2,11 +2,11 @@
 
 use super::designs::{Columns, FIRST, LAST, Naming, digits, id};
 use super::folder::{self, CHECKPOINT, EVALUATION, GENERATIONS, HISTORY, MANIFEST, PARETO};
-use super::manifest::Manifest;
+use super::manifest::{Counts, Manifest, Status};
 use crate::config::Config;
 use crate::evolve::Violation;
 use crate::mesh::canonical::Code;
-use crate::search::{Breeding, EvaluatedRow, GenerationRow};
+use crate::search::{Breeding, EvaluatedRow, GenerationRow, Snapshot};
 use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -19,6 +19,18 @@ pub enum LoadError {
     /// The folder is not that of a run.
     #[error("{}: not the results folder of a run: it has no {MANIFEST}; {}", folder.display(), cure(folder))]
     NotARun {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// The run has not written its tables yet.
+    #[error("{}: the run there is not finished, and its tables are not written: end it with `quadrille run CONFIG --resume`", folder.display())]
+    Unfinished {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// The run has nothing to show yet.
+    #[error("{}: the run there has not finished a generation yet; look again later", folder.display())]
+    Nothing {
         /// The folder.
         folder: PathBuf,
     },
@@ -47,23 +59,58 @@ pub struct Loaded {
     pub manifest: Manifest,
     /// The config as resolved.
     pub config: Config,
-    /// The folder to which paths in it are relative.
-    pub config_folder: PathBuf,
     /// Every evaluated design, as in `history.csv`. Codes have their first 64 bits only.
     pub evaluated: Vec<EvaluatedRow>,
     /// The front in the order of `pareto.csv`, as places in `evaluated`.
     pub front: Vec<usize>,
     /// Every generation, as in `generations.csv`.
     pub generations: Vec<GenerationRow>,
+    /// Whether the run goes on or was interrupted: then all this is what it had found after its last finished generation.
+    pub is_unfinished: bool,
     /// How the tables and the names of the files in `designs/` write ids.
     pub naming: Naming,
 }
 
-/// Reads a results folder.
+/// Reads a results folder: a finished run from its tables, any other as it stood after its last finished generation.
+///
+/// # Errors
+/// [`LoadError`] with file and line.
+pub fn look(folder: &Path) -> Result<Loaded, LoadError> {
+    let (mut manifest, config) = head(folder)?;
+    if manifest.status == Status::Finished {
+        return tables(folder, manifest, config);
+    }
+    let read = Snapshot::read(folder)
+        .map_err(|error| LoadError::Format { path: folder::journal(folder), message: error.to_string() })?;
+    let Some(Snapshot { evaluated, generations, front, breeding }) = read else {
+        return Err(LoadError::Nothing { folder: folder.to_path_buf() });
+    };
+    manifest.counts = Counts::of(&generations, &breeding, evaluated.len(), front.len());
+    Ok(Loaded {
+        manifest,
+        config,
+        evaluated,
+        front,
+        generations,
+        is_unfinished: true,
+        naming: Naming::Lettered,
+    })
+}
+
+/// Reads the tables of a results folder.
 ///
 /// # Errors
 /// [`LoadError`] with file and line.
 pub fn load(folder: &Path) -> Result<Loaded, LoadError> {
+    let (manifest, config) = head(folder)?;
+    match manifest.status {
+        Status::Running => Err(LoadError::Unfinished { folder: folder.to_path_buf() }),
+        Status::Interrupted | Status::Finished => tables(folder, manifest, config),
+    }
+}
+
+/// What was run.
+fn head(folder: &Path) -> Result<(Manifest, Config), LoadError> {
     let path = folder.join(MANIFEST);
     if !path.exists() {
         return Err(LoadError::NotARun { folder: folder.to_path_buf() });
@@ -72,6 +119,10 @@ pub fn load(folder: &Path) -> Result<Loaded, LoadError> {
     let manifest = Manifest::parse(&read(&path)?).map_err(|error| wrong(error.to_string()))?;
     let config: Config =
         toml::from_str(&manifest.config).map_err(|error| wrong(format!("config: {}", error.message())))?;
+    Ok((manifest, config))
+}
+
+fn tables(folder: &Path, manifest: Manifest, config: Config) -> Result<Loaded, LoadError> {
     let columns = Columns::of(&config.objectives.minimise);
     let naming = Cell::new(Naming::Lettered);
     let evaluated = Sheet::each(folder, HISTORY, |record| {
@@ -85,8 +136,8 @@ pub fn load(folder: &Path) -> Result<Loaded, LoadError> {
         places.get(&code).copied().ok_or_else(|| record.wrong(format!("{} is not in {HISTORY}", id(code))))
     })?;
     let generations = Sheet::each(folder, GENERATIONS, |record| generation(record, &columns))?;
-    let config_folder = PathBuf::from(&manifest.config_folder);
-    Ok(Loaded { manifest, config, config_folder, evaluated, front, generations, naming: naming.get() })
+    let is_unfinished = manifest.status != Status::Finished;
+    Ok(Loaded { manifest, config, evaluated, front, generations, is_unfinished, naming: naming.get() })
 }
 
 /// What a folder without a manifest is, and what to do.

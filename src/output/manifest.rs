@@ -1,5 +1,7 @@
 //! `manifest.json`: what was run, with what, where and when. The one file that holds times.
 
+use super::ledger::Files;
+use crate::search::{Breeding, GenerationRow};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -7,6 +9,8 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Version of the manifest's own layout.
 pub const VERSION: u32 = 1;
+/// The program that writes it.
+pub const PROGRAM: &str = env!("CARGO_PKG_NAME");
 
 /// Why a manifest cannot be read.
 #[derive(Debug, thiserror::Error)]
@@ -23,6 +27,9 @@ pub enum ManifestError {
         /// The version of the program, as it says.
         program: String,
     },
+    /// Other programs have a `manifest.json` too.
+    #[error("it is not the manifest of a run")]
+    Foreign,
     /// It is not what the program writes.
     #[error(transparent)]
     Format(#[from] serde_json::Error),
@@ -55,24 +62,29 @@ pub struct Manifest {
     pub ended: String,
     /// Counts of the whole run.
     pub counts: Counts,
-    /// Seconds of searching, added up over all sittings that ended with a manifest.
+    /// Seconds of searching, added up over all sittings; of one that was killed, up to its last finished generation.
     pub seconds: f64,
     /// The machine.
     pub host: Host,
     /// The config as resolved, as TOML.
     pub config: String,
-    /// Folder to which the paths in it are relative.
+    /// Folder to which the paths in it are relative, from the root and without `..`.
     pub config_folder: String,
     /// SHA-256 of `config`.
     pub config_sha256: String,
-    /// SHA-256 of every file that the config names.
+    /// SHA-256 of every file that the config names, as it was when the run began.
     pub input_files: BTreeMap<String, String>,
+    /// Every file that the run has written here: the only ones that it replaces or removes.
+    #[serde(default)]
+    pub files: Files,
 }
 
-/// How a run ended.
+/// How a run ended, if it did.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
+    /// Not at all so far: it goes on, or it was killed.
+    Running,
     /// By its own limits.
     Finished,
     /// By a signal; it can be resumed.
@@ -98,6 +110,23 @@ pub struct Counts {
     pub duplicates_refused: u64,
     /// Children refused because a near design was known.
     pub neighbours_refused: u64,
+}
+
+impl Counts {
+    /// Counts after these generations.
+    pub fn of(generations: &[GenerationRow], breeding: &Breeding, evaluated: usize, front: usize) -> Self {
+        let last = generations.last();
+        Self {
+            generations: last.map_or(0, |row| row.generation),
+            evaluations: evaluated as u64,
+            structural_evaluations: last.map_or(0, |row| row.structural),
+            feasible: last.map_or(0, |row| row.feasible),
+            front_size: front as u64,
+            bred: breeding.bred,
+            duplicates_refused: breeding.duplicates,
+            neighbours_refused: breeding.neighbours,
+        }
+    }
 }
 
 /// The machine.
@@ -134,6 +163,9 @@ impl Manifest {
     /// [`ManifestError`]; the version is looked at first, since nothing else need be there in a later one.
     pub fn parse(bytes: &[u8]) -> Result<Self, ManifestError> {
         let manifest: serde_json::Value = serde_json::from_slice(bytes)?;
+        if manifest["program"] != PROGRAM {
+            return Err(ManifestError::Foreign);
+        }
         match manifest["manifest_version"].as_u64() {
             Some(found) if found > u64::from(VERSION) => {
                 let program = manifest["program_version"].as_str().unwrap_or("of a later version").to_owned();
@@ -200,6 +232,7 @@ mod tests {
                 config_folder: ".".into(),
                 config_sha256: String::new(),
                 input_files: BTreeMap::new(),
+                files: Files::new(),
             }
         }
     }
@@ -212,11 +245,14 @@ mod tests {
 
     #[test]
     fn a_later_version_is_told_whatever_else_it_holds() {
-        let later = br#"{"manifest_version": 7, "program_version": "3.1.0"}"#;
+        let later = br#"{"program": "quadrille", "manifest_version": 7, "program_version": "3.1.0"}"#;
         let told = Manifest::parse(later).unwrap_err().to_string();
         assert!(told.contains("quadrille 3.1.0 with manifest_version 7"), "{told}");
-        let broken = Manifest::parse(br#"{"manifest_version": 1}"#).unwrap_err();
+        let broken = Manifest::parse(br#"{"program": "quadrille", "manifest_version": 1}"#).unwrap_err();
         assert!(matches!(broken, ManifestError::Format(_)), "{broken}");
+        // As browser extensions have it.
+        let foreign = Manifest::parse(br#"{"manifest_version": 3, "name": "mine"}"#).unwrap_err();
+        assert!(matches!(foreign, ManifestError::Foreign), "{foreign}");
     }
 
     #[test]

@@ -4,38 +4,24 @@ use super::analysed::{Analysed, PanelShapes};
 use super::compas::compas;
 use super::designs::{Columns, id, pareto, write_history};
 use super::explorer::{Column, design_explorer};
-use super::folder::{self, Folder, FolderError, excel_name};
+use super::folder::{self, Folder, FolderError, TABLES, excel_name};
 use super::generations::{generations, operators};
-use super::manifest::{self, Counts, Host, Manifest, Status, timestamp};
 use super::obj::obj;
 use super::obstacles::nearest_misses;
 use super::polygons::Polygons;
 use super::svg::{Plan, Shade, svg};
 use super::table::{Dialect, Table};
-use crate::config::{self, Config};
-use crate::mesh::CanonicalMesh;
+use crate::config::Project;
+use crate::mesh::{CanonicalMesh, Code};
 use crate::objectives::METRICS;
-use crate::search::{Ended, EvaluatedRow, Evaluation, Outcome, ThreadsError, thread_pool};
+use crate::search::{EvaluatedRow, Evaluation, Outcome, ThreadsError, thread_pool};
 use crate::structure::gridshell::{Detailed, Proof};
 use crate::study::{Design, Failure, Reached, Study};
-use rayon::prelude::*;
 use serde_json::Value as Json;
-use sha2::{Digest, Sha256};
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 use std::io::Write;
-use std::path::Path;
-use std::time::SystemTime;
-
-/// When and with what this part of the run was done.
-#[derive(Clone, Copy, Debug)]
-pub struct Sitting {
-    /// Its start.
-    pub started: SystemTime,
-    /// Seconds of searching.
-    pub seconds: f64,
-    /// Threads that evaluated.
-    pub threads: usize,
-}
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc;
 
 /// Why results could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -43,14 +29,6 @@ pub enum ResultsError {
     /// The system refused.
     #[error(transparent)]
     Folder(#[from] FolderError),
-    /// A file named in the config cannot be read.
-    #[error("{file}: {source}")]
-    Input {
-        /// The file.
-        file: String,
-        /// What the system says.
-        source: std::io::Error,
-    },
     /// The system does not give the threads.
     #[error(transparent)]
     Threads(#[from] ThreadsError),
@@ -64,111 +42,164 @@ pub enum ResultsError {
     },
 }
 
+/// What a resumed run must have in common with the one it goes on with: the config and the files it names.
+pub fn record(project: &Project) -> Json {
+    let mut record = serde_json::to_value(&project.config).unwrap_or_default();
+    record["input_files"] = serde_json::to_value(project.inputs.hashes()).unwrap_or_default();
+    record
+}
+
+/// How the writing of designs goes, and whether it is to go on.
+pub trait Writing {
+    /// So many of all designs are written.
+    fn written(&mut self, done: usize, all: usize);
+
+    /// Whether to stop with the designs in hand.
+    fn stop(&self) -> bool;
+}
+
 /// A finished search and what it was made from.
 #[derive(Clone, Copy)]
 pub struct Run<'a> {
     /// What the search was served by.
     pub study: &'a Study,
-    /// The config as resolved, seed included.
-    pub config: &'a Config,
-    /// The folder that paths in it are relative to.
-    pub config_folder: &'a Path,
+    /// The config, seed included, and its files.
+    pub project: &'a Project,
     /// What was found.
     pub outcome: &'a Outcome,
-}
-
-/// What a resumed run must have in common with the one it goes on with: the config and the files it names.
-///
-/// # Errors
-/// If one of these files cannot be read.
-pub fn record(config: &Config, config_folder: &Path) -> Result<Json, ResultsError> {
-    let mut record = serde_json::to_value(config).unwrap_or_default();
-    record["input_files"] = serde_json::to_value(input_hashes(config, config_folder)?).unwrap_or_default();
-    Ok(record)
-}
-
-fn input_hashes(config: &Config, config_folder: &Path) -> Result<BTreeMap<String, String>, ResultsError> {
-    let hash = |file: &Path| {
-        let name = file.display().to_string();
-        match std::fs::read(config_folder.join(file)) {
-            Ok(bytes) => Ok((name, config::hex(&Sha256::digest(bytes)))),
-            Err(source) => Err(ResultsError::Input { file: name, source }),
-        }
-    };
-    config::input_files(config).iter().map(|file| hash(file)).collect()
+    /// Which copies of the tables are wanted beside the canonical ones.
+    pub dialect: Dialect,
 }
 
 impl Run<'_> {
-    /// Writes tables and manifest of an interrupted run, so that what is known so far can be looked at.
+    /// The names of the files that [`Run::write`] may write, but for the manifest.
+    pub fn names(&self) -> Vec<String> {
+        let rows = self.rows().into_iter();
+        let designs = rows.flat_map(|(row, _)| ENDINGS.map(|ending| design_name(&id(row.code), ending)));
+        let pictures = self.front().into_iter().chain(self.baseline()).map(|row| picture_name(&id(row.code)));
+        let tables = self.table_names().into_iter();
+        tables.chain(designs).chain(pictures).chain([explorer_name("data.csv")]).collect()
+    }
+
+    /// Those that [`Run::write_tables`] writes.
+    pub fn table_names(&self) -> Vec<String> {
+        TABLES.iter().flat_map(|name| self.dialects().map(|dialect| named(name, dialect))).collect()
+    }
+
+    /// Writes the tables: all that there is of an interrupted run.
     ///
     /// # Errors
     /// [`ResultsError`].
-    pub fn write_interrupted(&self, folder: &Folder, sitting: &Sitting) -> Result<(), ResultsError> {
-        self.write_tables(folder, Dialect::Canonical)?;
-        self.write_manifest(folder, sitting, Status::Interrupted)
-    }
-
-    /// Writes everything but the report; the manifest last, since it says that the run is finished.
-    ///
-    /// # Errors
-    /// [`ResultsError`].
-    pub fn write(&self, folder: &Folder, sitting: &Sitting, dialect: Dialect) -> Result<(), ResultsError> {
-        self.write_tables(folder, dialect)?;
-        self.write_designs(folder, sitting.threads)?;
-        self.write_manifest(folder, sitting, Status::Finished)
-    }
-
-    fn front(&self) -> Vec<&EvaluatedRow> {
-        self.outcome.front.iter().map(|&row| &self.outcome.evaluated[row]).collect()
-    }
-
-    fn write_tables(&self, folder: &Folder, dialect: Dialect) -> Result<(), ResultsError> {
-        let columns = Columns::of(&self.config.objectives.minimise);
+    pub fn write_tables(&self, folder: &mut Folder) -> Result<(), ResultsError> {
+        let columns = Columns::of(&self.project.config.objectives.minimise);
         let Outcome { evaluated, generations: rows, .. } = self.outcome;
         let tables: [(&str, Table); 3] = [
             (folder::PARETO, pareto(&self.front(), &columns)),
             (folder::GENERATIONS, generations(rows, &columns.objectives)),
             (folder::OPERATORS, operators(rows)),
         ];
-        let excel = (dialect == Dialect::ExcelEu).then_some(Dialect::ExcelEu);
-        for dialect in [Dialect::Canonical].into_iter().chain(excel) {
-            let named = |name: &str| match dialect {
-                Dialect::Canonical => name.to_owned(),
-                Dialect::ExcelEu => excel_name(name),
-            };
+        for dialect in self.dialects() {
             for (name, table) in &tables {
-                folder.write(named(name), &table.to_bytes(dialect))?;
+                folder.write(&named(name, dialect), &table.to_bytes(dialect))?;
             }
             let history = |out: &mut dyn Write| write_history(out, dialect, evaluated, &columns);
-            folder.write_with(named(folder::HISTORY), history)?;
+            folder.write_with(&named(folder::HISTORY, dialect), history)?;
         }
         Ok(())
     }
 
-    /// Every design of the front in every format, and the copies for Design Explorer; without a front the designs that came
-    /// nearest; for comparison also the initial mesh, where it has a pattern.
-    fn write_designs(&self, folder: &Folder, threads: usize) -> Result<(), ResultsError> {
-        let front = self.front();
-        let pool = thread_pool(threads)?;
-        let baseline = self.outcome.evaluated.iter().find(|row| row.tokens.is_empty());
-        let files: Vec<DesignFiles> =
-            pool.install(|| front.par_iter().map(|row| self.design_files(row)).collect::<Result<_, _>>())?;
-        folder.clear_designs()?;
-        let initial = baseline.and_then(|row| self.design_files(row).ok());
-        let misses = nearest_misses(&self.outcome.evaluated);
-        let of_miss = |&row: &usize| self.design_files(&self.outcome.evaluated[row]).ok();
-        let misses: Vec<DesignFiles> = pool.install(|| misses.par_iter().filter_map(of_miss).collect());
-        for (name, bytes) in misses.iter().flatten() {
-            folder.write(Path::new(folder::DESIGNS).join(name), bytes)?;
+    /// Writes the tables and all designs, and removes what earlier sittings wrote that is no longer found; false if it
+    /// was stopped before its end. Report and manifest are left to the caller: they say that a run is finished.
+    ///
+    /// # Errors
+    /// [`ResultsError`].
+    pub fn write(
+        &self,
+        folder: &mut Folder,
+        threads: usize,
+        writing: &mut dyn Writing,
+    ) -> Result<bool, ResultsError> {
+        self.write_tables(folder)?;
+        if !self.write_designs(folder, threads, writing)? {
+            return Ok(false);
         }
-        for (name, bytes) in files.iter().chain(&initial).flatten() {
-            folder.write(Path::new(folder::DESIGNS).join(name), bytes)?;
-            if name.ends_with(".svg") {
-                folder.write(Path::new(folder::DESIGN_EXPLORER).join(name), bytes)?;
+        let table = design_explorer(&self.front(), &explorer_columns(false), &explorer_columns(true));
+        folder.write(&explorer_name("data.csv"), &table.to_csv())?;
+        folder.retire()?;
+        Ok(true)
+    }
+
+    fn front(&self) -> Vec<&EvaluatedRow> {
+        self.outcome.front.iter().map(|&row| &self.outcome.evaluated[row]).collect()
+    }
+
+    /// The initial mesh, for comparison.
+    fn baseline(&self) -> Option<&EvaluatedRow> {
+        self.outcome.evaluated.iter().find(|row| row.tokens.is_empty())
+    }
+
+    fn dialects(&self) -> impl Iterator<Item = Dialect> + use<> {
+        [Dialect::Canonical].into_iter().chain(Some(self.dialect).filter(|&d| d != Dialect::Canonical))
+    }
+
+    /// The designs that get files, each once, and whether each is sure to have a pattern: the front; the initial mesh;
+    /// without a front those that came nearest.
+    fn rows(&self) -> Vec<(&EvaluatedRow, bool)> {
+        let mut rows: Vec<(&EvaluatedRow, bool)> = self.front().into_iter().map(|row| (row, true)).collect();
+        let misses = nearest_misses(&self.outcome.evaluated);
+        let misses = misses.iter().map(|&row| &self.outcome.evaluated[row]);
+        for row in self.baseline().into_iter().chain(misses) {
+            if rows.iter().all(|(other, _)| other.code != row.code) {
+                rows.push((row, false));
             }
         }
-        let table = design_explorer(&front, &explorer_columns(false), &explorer_columns(true));
-        Ok(folder.write(Path::new(folder::DESIGN_EXPLORER).join("data.csv"), &table.to_csv())?)
+        rows
+    }
+
+    /// Every design in every format, each written as soon as it is made, and pictures for Design Explorer.
+    fn write_designs(
+        &self,
+        folder: &mut Folder,
+        threads: usize,
+        writing: &mut dyn Writing,
+    ) -> Result<bool, ResultsError> {
+        let rows = self.rows();
+        let explored: BTreeSet<Code> =
+            self.front().into_iter().chain(self.baseline()).map(|row| row.code).collect();
+        let pool = thread_pool(threads)?;
+        let over = AtomicBool::new(false);
+        let (sender, made) = mpsc::channel();
+        let mut done = 0;
+        let mut result = Ok(());
+        pool.in_place_scope_fifo(|scope| {
+            for &(row, is_sure) in &rows {
+                let (sender, over) = (sender.clone(), &over);
+                scope.spawn_fifo(move |_| {
+                    if !over.load(Ordering::Relaxed) {
+                        // The receiver outlives the scope, so a send cannot fail.
+                        let _ = sender.send((row, is_sure, self.design_files(row)));
+                    }
+                });
+            }
+            drop(sender);
+            writing.written(done, rows.len());
+            for (row, is_sure, files) in made {
+                let written = match files {
+                    Ok(files) => write_design(folder, files, explored.contains(&row.code)),
+                    Err(error) if is_sure => Err(error),
+                    Err(_) => Ok(()),
+                };
+                done += 1;
+                if result.is_ok() {
+                    result = written;
+                }
+                writing.written(done, rows.len());
+                if result.is_err() || writing.stop() {
+                    over.store(true, Ordering::Relaxed);
+                }
+            }
+        });
+        result.map(|()| done == rows.len())
     }
 
     fn design_files(&self, row: &EvaluatedRow) -> Result<DesignFiles, ResultsError> {
@@ -181,57 +212,38 @@ impl Run<'_> {
             Err(failure) => Err(ResultsError::Design { id, reason: failure.reason }),
         }
     }
+}
 
-    fn write_manifest(&self, folder: &Folder, sitting: &Sitting, status: Status) -> Result<(), ResultsError> {
-        let counts = self.counts();
-        let earlier = Manifest::read(folder.path());
-        let same = earlier.as_ref().filter(|earlier| earlier.counts == counts);
-        if same.is_some_and(|earlier| earlier.status == Status::Finished) {
-            // Nothing was done in this sitting: what is there tells of those in which something was.
-            return Ok(());
+fn write_design(folder: &mut Folder, files: DesignFiles, is_explored: bool) -> Result<(), ResultsError> {
+    for (name, bytes) in &files {
+        folder.write(&format!("{}/{name}", folder::DESIGNS), bytes)?;
+        if is_explored && name.ends_with(".svg") {
+            folder.write(&explorer_name(name), bytes)?;
         }
-        let threads = same.map_or(sitting.threads, |earlier| earlier.threads);
-        let (started, before) = match earlier {
-            Some(earlier) => (earlier.started, earlier.seconds),
-            None => (timestamp(sitting.started), 0.0),
-        };
-        let config = config::to_toml(self.config);
-        let manifest = Manifest {
-            manifest_version: manifest::VERSION,
-            program: env!("CARGO_PKG_NAME").into(),
-            program_version: env!("CARGO_PKG_VERSION").into(),
-            name: self.config.run.name.clone().unwrap_or_default(),
-            objectives: Columns::of(&self.config.objectives.minimise).objectives,
-            seed: self.config.run.seed.unwrap_or_default(),
-            threads,
-            status,
-            ended_by: words(self.outcome.ended),
-            started,
-            ended: timestamp(SystemTime::now()),
-            counts,
-            seconds: before + sitting.seconds,
-            host: Host::here(),
-            config_folder: absolute(self.config_folder),
-            config_sha256: config::hash(self.config),
-            input_files: input_hashes(self.config, self.config_folder)?,
-            config,
-        };
-        Ok(folder.write(folder::MANIFEST, &manifest.to_json())?)
     }
+    Ok(())
+}
 
-    fn counts(&self) -> Counts {
-        let Outcome { generations, breeding, .. } = self.outcome;
-        let last = generations.last();
-        Counts {
-            generations: last.map_or(0, |row| row.generation),
-            evaluations: self.outcome.evaluated.len() as u64,
-            structural_evaluations: last.map_or(0, |row| row.structural),
-            feasible: last.map_or(0, |row| row.feasible),
-            front_size: self.outcome.front.len() as u64,
-            bred: breeding.bred,
-            duplicates_refused: breeding.duplicates,
-            neighbours_refused: breeding.neighbours,
-        }
+/// Endings of the files of a design.
+const ENDINGS: [&str; 7] = [".obj", ".json", ".svg", ".vtu", "_members.vtu", "_nodes.csv", "_members.csv"];
+
+fn design_name(id: &str, ending: &str) -> String {
+    format!("{}/{id}{ending}", folder::DESIGNS)
+}
+
+fn picture_name(id: &str) -> String {
+    explorer_name(&format!("{id}.svg"))
+}
+
+fn explorer_name(name: &str) -> String {
+    format!("{}/{name}", folder::DESIGN_EXPLORER)
+}
+
+/// The name of a table in a dialect.
+fn named(name: &str, dialect: Dialect) -> String {
+    match dialect {
+        Dialect::Canonical => name.to_owned(),
+        Dialect::ExcelEu => excel_name(name),
     }
 }
 
@@ -320,16 +332,16 @@ impl Developed {
     pub fn files(&self, id: &str) -> DesignFiles {
         let mesh = Polygons::from(&self.design.pattern);
         let analysed = self.analysed();
-        let named = |ending: &str, bytes: Vec<u8>| (format!("{id}{ending}"), bytes);
-        vec![
-            named(".obj", obj(&mesh, id)),
-            named(".json", compas(&mesh, id)),
-            named(".svg", self.plan(id)),
-            named(".vtu", analysed.panels_vtu()),
-            named("_members.vtu", analysed.members_vtu()),
-            named("_nodes.csv", analysed.nodes_table().to_csv()),
-            named("_members.csv", analysed.members_table().to_csv()),
-        ]
+        let bytes = [
+            obj(&mesh, id),
+            compas(&mesh, id),
+            self.plan(id),
+            analysed.panels_vtu(),
+            analysed.members_vtu(),
+            analysed.nodes_table().to_csv(),
+            analysed.members_table().to_csv(),
+        ];
+        ENDINGS.iter().zip(bytes).map(|(ending, bytes)| (format!("{id}{ending}"), bytes)).collect()
     }
 }
 
@@ -347,20 +359,4 @@ fn explorer_columns(outputs: bool) -> Vec<Column> {
             },
         })
         .collect()
-}
-
-fn absolute(folder: &Path) -> String {
-    std::path::absolute(folder).unwrap_or_else(|_| folder.to_path_buf()).display().to_string()
-}
-
-/// Why a run ended, in words.
-fn words(ended: Ended) -> String {
-    match ended {
-        Ended::Generations => "all generations are done".into(),
-        Ended::Evaluations => "the structural evaluations are used up".into(),
-        Ended::Minutes => "the time is used up".into(),
-        Ended::Stall => "the hypervolume no longer grew".into(),
-        Ended::Exhausted => "nothing new could be bred".into(),
-        Ended::Interrupted(signal) => format!("signal {signal}"),
-    }
 }

@@ -30,5 +30,5 @@ pub use record::{Breeding, EvaluatedRow, GenerationRow, Metrics, OperatorCount};
 pub use server::{Server, ThreadServer, evaluate};
 pub use state::Settings;
 pub use stop::StopFlag;
-pub use store::{Store, StoreError, differing_keys};
+pub use store::{Snapshot, Store, StoreError, differing_keys};
 pub use threads::{ThreadsError, thread_pool};

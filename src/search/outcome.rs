@@ -55,7 +55,7 @@ impl Outcome {
     }
 }
 
-fn sorted_front(rows: &[EvaluatedRow], front: &NonDominated) -> Vec<usize> {
+pub(super) fn sorted_front(rows: &[EvaluatedRow], front: &NonDominated) -> Vec<usize> {
     let mut ids: Vec<usize> = front.ids().collect();
     ids.sort_by(|&a, &b| {
         let (a, b) = (&rows[a], &rows[b]);
@@ -65,7 +65,7 @@ fn sorted_front(rows: &[EvaluatedRow], front: &NonDominated) -> Vec<usize> {
     ids
 }
 
-fn total(generations: &[GenerationRow]) -> Breeding {
+pub(super) fn total(generations: &[GenerationRow]) -> Breeding {
     let mut total =
         Breeding { operators: vec![OperatorCount::default(); OPERATORS.len()], ..Breeding::default() };
     for Breeding { bred, duplicates, neighbours, rejected, cached, screened, immigrants, empty, operators } in

@@ -1,11 +1,7 @@
-//! The flag that ends a run early, and the signals that raise it.
+//! The flag that ends a run early.
 
-use std::io;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-
-use signal_hook::consts::{SIGINT, SIGTERM};
-use signal_hook::flag;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Asks a run to finish the evaluations in flight, write its checkpoint and return.
 #[derive(Clone, Debug, Default)]
@@ -28,23 +24,5 @@ impl StopFlag {
             0 => None,
             signal => i32::try_from(signal).ok(),
         }
-    }
-
-    /// Lets SIGINT and SIGTERM raise the flag; a second one of either ends the program at once, with exit code
-    /// 130 or 143.
-    ///
-    /// # Errors
-    /// If the operating system refuses the handlers.
-    pub fn install(&self) -> io::Result<()> {
-        let armed = Arc::new(AtomicBool::new(false));
-        for signal in [SIGINT, SIGTERM] {
-            // Order matters: actions run as registered, and the first signal must find the second's trap unarmed.
-            flag::register_conditional_shutdown(signal, 128 + signal, Arc::clone(&armed))?;
-        }
-        for signal in [SIGINT, SIGTERM] {
-            flag::register(signal, Arc::clone(&armed))?;
-            flag::register_usize(signal, Arc::clone(&self.0), usize::try_from(signal).unwrap_or(1))?;
-        }
-        Ok(())
     }
 }

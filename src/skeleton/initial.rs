@@ -3,10 +3,9 @@
 use super::{SkeletonError, initial_mesh};
 use crate::domain::Domain;
 use crate::geometry::params::{InitialMesh as Given, TopologyParams};
-use crate::io::{LengthUnit, ReadError, compas, obj};
+use crate::io::{Input, Inputs, LengthUnit, ReadError, compas, obj};
 use crate::mesh::{BaseMesh, BaseMeshError, InitialMesh, base_json};
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
 
 /// Why there is no initial mesh.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
@@ -98,15 +97,15 @@ impl InitialError {
 }
 
 /// The initial mesh of a config on its domain, valid and with its corners marked: boundary loop `k` of the mesh is loop `k` of the
-/// domain. Files are relative to `base_dir`.
+/// domain. The file that it names is among `inputs`.
 ///
 /// # Errors
 /// See [`InitialError`].
-pub fn initial(params: &TopologyParams, domain: &Domain, base_dir: &Path) -> Result<BaseMesh, InitialError> {
+pub fn initial(params: &TopologyParams, domain: &Domain, inputs: &Inputs) -> Result<BaseMesh, InitialError> {
     let mut base = match &params.initial {
         Given::Word(_) => initial_mesh(domain)?,
         Given::Grid { grid } => grid_mesh(*grid, domain)?,
-        Given::File { file, unit } => fit(read(&base_dir.join(file), *unit)?, domain)?,
+        Given::File { file, unit } => fit(read(inputs.get(file)?, *unit)?, domain)?,
         Given::Inline { vertices, faces, poles } => fit(inline(vertices, faces, poles)?, domain)?,
     };
     if let Some(marker) = params.marker {
@@ -143,11 +142,12 @@ fn inline(
 /// (`vertices`) or by COMPAS (`vertex`).
 ///
 /// # Errors
-/// A file that cannot be read or whose mesh is not valid, with line or key.
-pub fn read(file: &Path, unit: LengthUnit) -> Result<BaseMesh, ReadError> {
+/// A file that is no mesh, or whose mesh is not valid, with line or key.
+pub fn read(input: Input<'_>, unit: LengthUnit) -> Result<BaseMesh, ReadError> {
+    let Input { file, bytes } = input;
     let content = |reason: String| ReadError::Content { file: file.to_owned(), reason };
     if file.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj")) {
-        let obj = obj::read(file, unit)?;
+        let obj = obj::read(input, unit)?;
         let base = BaseMesh { vertices: obj.vertices, faces: obj.faces, ..BaseMesh::default() };
         InitialMesh::from_base(&base).map_err(|error| {
             let at_face = error.face().and_then(|face| obj.face_lines.get(face));
@@ -167,12 +167,12 @@ pub fn read(file: &Path, unit: LengthUnit) -> Result<BaseMesh, ReadError> {
         })?;
         return Ok(base);
     }
-    let text = String::from_utf8(crate::io::read_bytes(file)?).map_err(|e| content(e.to_string()))?;
-    let (mut base, counted) = match serde_json::from_str::<serde_json::Value>(&text) {
+    let text = std::str::from_utf8(bytes).map_err(|e| content(e.to_string()))?;
+    let (mut base, counted) = match serde_json::from_str::<serde_json::Value>(text) {
         Ok(value) if value.get("vertices").is_none() => {
             (compas::from_value(&value).map_err(content)?, " (counted from 0 in the order of the keys)")
         }
-        _ => (base_json::read(&text).map_err(|e| content(e.to_string()))?, ""),
+        _ => (base_json::read(text).map_err(|e| content(e.to_string()))?, ""),
     };
     InitialMesh::from_base(&base).map_err(|error| match error {
         BaseMeshError::TriangleWithoutPole { .. } if !counted.is_empty() => {

@@ -4,7 +4,7 @@ use super::error::SurfaceError;
 use super::tree::TriangleTree;
 use super::{Surface, SurfaceKind};
 use crate::io::obj::{self, ObjFile};
-use crate::io::{LengthUnit, ReadError};
+use crate::io::{Input, LengthUnit, ReadError};
 use std::path::Path;
 
 /// A mesh as a surface. Quads are cut along their shorter diagonal; vertices may be unwelded.
@@ -22,11 +22,12 @@ impl MeshSurface {
     /// Reads an OBJ file whose coordinates have the given unit.
     ///
     /// # Errors
-    /// A file that cannot be read, with the line at fault; a file without faces.
-    pub fn read(file: &Path, unit: LengthUnit) -> Result<Self, SurfaceError> {
-        let obj = obj::read(file, unit)?;
-        check_faces(&obj, file)?;
-        Self::new(&obj.vertices, &obj.faces).ok_or_else(|| SurfaceError::NoFaces { file: file.to_owned() })
+    /// A line at fault; a file without faces.
+    pub fn read(input: Input<'_>, unit: LengthUnit) -> Result<Self, SurfaceError> {
+        let obj = obj::read(input, unit)?;
+        check_faces(&obj, input.file)?;
+        Self::new(&obj.vertices, &obj.faces)
+            .ok_or_else(|| SurfaceError::NoFaces { file: input.file.to_owned() })
     }
 
     /// A mesh from its triangles and quads; faces without area do not count. `None` if none is left.

@@ -25,8 +25,8 @@ pub use mesh::MeshSurface;
 pub use params::SurfaceParams;
 pub use tree::{Closest, TriangleTree};
 
+use crate::io::Inputs;
 use quadric::{Quadric, Shape};
-use std::path::Path;
 use std::sync::Arc;
 
 /// How a surface takes a point back (GEOMETRY §1).
@@ -92,11 +92,11 @@ pub trait Surface: Send + Sync {
     }
 }
 
-/// Makes the surface of a config; files are relative to `base_dir`.
+/// Makes the surface of a config; the file that it names is among `inputs`.
 ///
 /// # Errors
 /// A length that is not positive and finite, a faulty expression (with its position), a file that cannot be read.
-pub fn build(params: &SurfaceParams, base_dir: &Path) -> Result<Arc<dyn Surface>, SurfaceError> {
+pub fn build(params: &SurfaceParams, inputs: &Inputs) -> Result<Arc<dyn Surface>, SurfaceError> {
     Ok(match params {
         SurfaceParams::GreatCourt {} => Arc::new(HeightSurface(GreatCourt)),
         SurfaceParams::Plane { z_m } => Arc::new(HeightSurface(plane::Plane::new(*z_m)?)),
@@ -114,7 +114,7 @@ pub fn build(params: &SurfaceParams, base_dir: &Path) -> Result<Arc<dyn Surface>
         SurfaceParams::Cylinder { center_m, axis_deg, radius_m } => {
             Arc::new(cylinder::Cylinder::new(*center_m, *axis_deg, *radius_m)?)
         }
-        SurfaceParams::Mesh { file, unit } => Arc::new(MeshSurface::read(&base_dir.join(file), *unit)?),
+        SurfaceParams::Mesh { file, unit } => Arc::new(MeshSurface::read(inputs.get(file)?, *unit)?),
         SurfaceParams::Free {} => Arc::new(free::Free),
     })
 }

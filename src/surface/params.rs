@@ -87,3 +87,13 @@ pub enum SurfaceParams {
     /// No surface: the relaxation finds the form (cable net).
     Free {},
 }
+
+impl SurfaceParams {
+    /// The files that it names.
+    pub fn files(&self) -> Vec<PathBuf> {
+        match self {
+            Self::Mesh { file, .. } => vec![file.clone()],
+            _ => Vec::new(),
+        }
+    }
+}

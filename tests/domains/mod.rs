@@ -2,10 +2,10 @@
 
 use quadrille::domain::params::{CornerRule, Corners};
 use quadrille::domain::{Domain, DomainParams, LoopParams};
+use quadrille::io::Inputs;
 use quadrille::random::{self, Rng};
 use quadrille::surface::{self, SurfaceParams};
 use std::f64::consts::{PI, TAU};
-use std::path::Path;
 
 /// The kinds of [`outline`].
 pub const KINDS: [&str; 15] = [
@@ -78,9 +78,9 @@ impl Pose {
 /// A domain on the plane, in a pose; its mark is carried along.
 pub fn posed(loops: &[LoopParams], pose: Pose) -> Option<Domain> {
     let resolve = |loops: Vec<LoopParams>, mark_m| {
-        let plane = surface::build(&SurfaceParams::Plane { z_m: 0.0 }, Path::new(".")).ok()?;
+        let plane = surface::build(&SurfaceParams::Plane { z_m: 0.0 }, &Inputs::default()).ok()?;
         let params = DomainParams { symmetries: Vec::new(), mark_m, loops };
-        Domain::resolve(&params, &plane, Path::new(".")).ok()
+        Domain::resolve(&params, &plane, &Inputs::default()).ok()
     };
     let drawn = resolve(loops.to_vec(), None)?;
     let mark = drawn.mark().map(|s| {

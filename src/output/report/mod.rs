@@ -15,7 +15,7 @@ mod shape;
 pub use crate::output::coarse::Singularities;
 pub use choose::worth_a_mesh;
 pub use data::{Design, Generation, Mark, Mesh, Metric, Obstacle, ReportData, Run, Sample, Singular, Spread};
-pub use read::read;
+pub use read::{of, read};
 
 /// Why a report cannot be made. All of these are mistakes of the caller: a run's own data satisfies them.
 #[derive(Debug, thiserror::Error)]

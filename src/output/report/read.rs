@@ -4,12 +4,14 @@ use super::choose::worth_a_mesh;
 use super::data::{Design, Generation, Metric, Obstacle, ReportData, Run, Sample, Spread};
 use super::families::{HANDFUL, families};
 use super::{measure, shape};
+use crate::io::Inputs;
 use crate::mesh::QuadMesh;
 use crate::objectives::{self, METRICS};
 use crate::output::coarse::singularities;
 use crate::output::designs::{Naming, id};
 use crate::output::folder::DESIGNS;
-use crate::output::load::{LoadError, Loaded, load};
+use crate::output::inputs;
+use crate::output::load::{LoadError, Loaded, look};
 use crate::output::manifest::Manifest;
 use crate::output::obstacles::{Obstacles, nearest_misses};
 use crate::search::{EvaluatedRow, GenerationRow};
@@ -22,7 +24,7 @@ const MESH_BUDGET: usize = 13_000_000;
 /// Bytes that a packed mesh takes per panel, generously (measured: 26).
 const BYTES_PER_PANEL: usize = 28;
 
-/// Reads a results folder: tables, manifest and, for pictures, `designs/ID.json` and `ID_members.csv`.
+/// Reads a results folder, also of a run that is not finished ([`look`]): tables, manifest and, for pictures, `designs/ID.json` and `ID_members.csv`.
 ///
 /// Of a front too large for one page some designs come without a mesh ([`worth_a_mesh`]); the baseline keeps its own.
 /// A design whose mesh file is missing has no picture, and one whose member file is missing no utilisation.
@@ -30,9 +32,18 @@ const BYTES_PER_PANEL: usize = 28;
 /// # Errors
 /// [`LoadError`]: a file that is missing or cannot be read, by name and line.
 pub fn read(folder: &Path) -> Result<ReportData, LoadError> {
-    let loaded = load(folder)?;
-    let shown = Shown::of(&loaded);
-    let Loaded { manifest, evaluated, front, generations, .. } = loaded;
+    let loaded = look(folder)?;
+    let inputs = inputs::again(&loaded.manifest, &loaded.config, None).ok();
+    of(folder, loaded, inputs.as_ref())
+}
+
+/// As [`read`], from a folder that was read already; designs are grouped where its inputs are there as they were.
+///
+/// # Errors
+/// As [`read`].
+pub fn of(folder: &Path, loaded: Loaded, inputs: Option<&Inputs>) -> Result<ReportData, LoadError> {
+    let shown = Shown::of(&loaded, inputs);
+    let Loaded { manifest, evaluated, front, generations, is_unfinished, .. } = loaded;
     let shapes = folder.join(DESIGNS);
     let mut rows: Vec<Design> =
         front.iter().map(|&row| shown.design(&evaluated[row], &shapes)).collect::<Result<_, _>>()?;
@@ -45,7 +56,7 @@ pub fn read(folder: &Path) -> Result<ReportData, LoadError> {
         misses.iter().map(|&row| shown.design(&evaluated[row], &shapes)).collect::<Result<_, _>>()?;
     keep_within_budget(&mut rows, shown.objectives);
     Ok(ReportData {
-        run: run(&manifest),
+        run: run(&manifest, is_unfinished),
         metrics: shown.places.iter().map(|&place| metric(METRICS[place])).collect(),
         objectives: (0..shown.objectives).collect(),
         design_files: rows
@@ -67,10 +78,14 @@ pub fn read(folder: &Path) -> Result<ReportData, LoadError> {
     })
 }
 
-fn run(manifest: &Manifest) -> Run {
+fn run(manifest: &Manifest, is_unfinished: bool) -> Run {
     let counts = &manifest.counts;
+    let name = manifest.name.clone();
     Run {
-        name: manifest.name.clone(),
+        name: match is_unfinished {
+            true => format!("{name} (unfinished, after generation {})", counts.generations),
+            false => name,
+        },
         program_version: manifest.program_version.clone(),
         seed: manifest.seed.to_string(),
         evaluations: counts.evaluations,
@@ -112,8 +127,8 @@ struct Shown {
 }
 
 impl Shown {
-    fn of(loaded: &Loaded) -> Self {
-        let Loaded { config, config_folder, evaluated, naming, .. } = loaded;
+    fn of(loaded: &Loaded, inputs: Option<&Inputs>) -> Self {
+        let Loaded { config, evaluated, naming, .. } = loaded;
         let minimised = &config.objectives.minimise;
         let place = |name: &String| METRICS.iter().position(|metric| metric.name == name);
         let mut places: Vec<usize> = minimised.iter().filter_map(place).collect();
@@ -121,7 +136,12 @@ impl Shown {
         let exists = |place: &usize| evaluated.iter().any(|row| row.metrics.get(*place).is_some());
         let others = (0..METRICS.len()).filter(|place| !places.contains(place)).filter(exists);
         places.extend(others.collect::<Vec<_>>());
-        Self { places, objectives, naming: *naming, study: Study::new(config, config_folder).ok() }
+        Self {
+            places,
+            objectives,
+            naming: *naming,
+            study: inputs.and_then(|inputs| Study::of(config, inputs).ok()),
+        }
     }
 
     fn design(&self, row: &EvaluatedRow, shapes: &Path) -> Result<Design, LoadError> {

@@ -19,7 +19,15 @@ pub fn differing_keys(recorded: &Value, given: &Value) -> Vec<String> {
     keys.extend(given.keys().filter(|key| !recorded.contains_key(*key)).cloned());
     keys.retain(|key| !FREE.contains(&key.as_str()));
     keys.sort();
-    keys
+    keys.into_iter().map(in_words).collect()
+}
+
+/// A key as it is told: a file that the config names has no key of its own.
+fn in_words(key: String) -> String {
+    match key.strip_prefix("input_files.") {
+        Some(file) => format!("what is in the file {file}"),
+        None => key,
+    }
 }
 
 /// Every value that is not an object, under its dotted key.
@@ -57,5 +65,7 @@ mod tests {
         assert!(differing_keys(&recorded, &same).is_empty());
         let other = json!({"run": {"seed": 2}, "search": {"generations": 3}, "pattern": {"panels": 5}});
         assert_eq!(differing_keys(&recorded, &other), ["pattern.panels", "run.seed", "search.population"]);
+        let file = |sum: &str| json!({"input_files": {"in/roof.obj": sum}});
+        assert_eq!(differing_keys(&file("a"), &file("b")), ["what is in the file in/roof.obj"]);
     }
 }

@@ -21,6 +21,7 @@ mod compare;
 mod entry;
 mod error;
 mod journal;
+mod snapshot;
 
 use std::collections::HashMap;
 use std::fs;
@@ -37,11 +38,12 @@ use super::problem::Evaluation;
 use super::state::{Indexed, Settings, State};
 use crate::mesh::canonical::Code;
 use crate::output::atomic;
-use crate::output::folder::{self, CHECKPOINT, CHECKPOINT_PREVIOUS, JOURNAL, JOURNAL_BEFORE};
+use crate::output::folder::{self, CHECKPOINT, CHECKPOINT_PREVIOUS, JOURNAL};
 
 pub use compare::differing_keys;
 pub(crate) use entry::text;
 pub use error::StoreError;
+pub use snapshot::Snapshot;
 
 /// The files of one run.
 #[derive(Debug)]
@@ -50,6 +52,7 @@ pub struct Store {
     config: Value,
     journal: Journal,
     found: Found,
+    worked: bool,
 }
 
 /// What an earlier sitting left.
@@ -72,7 +75,7 @@ impl Store {
     /// # Errors
     /// If files cannot be written.
     pub fn create(folder: &Path, config: Value) -> Result<Self, StoreError> {
-        for name in [CHECKPOINT, CHECKPOINT_PREVIOUS, JOURNAL_BEFORE] {
+        for name in [CHECKPOINT, CHECKPOINT_PREVIOUS] {
             let path = folder.join(name);
             match fs::remove_file(&path) {
                 Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
@@ -82,7 +85,7 @@ impl Store {
             }
         }
         let journal = Journal::create(&folder.join(JOURNAL), &config)?;
-        Ok(Self { folder: folder.to_path_buf(), config, journal, found: Found::default() })
+        Ok(Self { folder: folder.to_path_buf(), config, journal, found: Found::default(), worked: false })
     }
 
     /// Goes on in `folder`; starts anew where there is nothing to go on from.
@@ -91,53 +94,42 @@ impl Store {
     /// If files cannot be read or written, a later program wrote them, or `config` differs from the recorded one in
     /// anything but threads and the stopping limits.
     pub fn resume(folder: &Path, config: Value) -> Result<Self, StoreError> {
-        let mut found = Found::default();
-        let mut recorded = None;
-        for name in [CHECKPOINT, CHECKPOINT_PREVIOUS] {
-            found.checkpoint_files += usize::from(folder.join(name).exists());
-            match checkpoint::read(&folder.join(name)) {
-                Ok(Some(checkpoint)) => {
-                    recorded.get_or_insert(checkpoint.config.clone());
-                    found.checkpoints.push(checkpoint);
-                }
-                Ok(None) => {}
-                Err(Unusable::Damaged(how)) => found.notices.push(format!("{name} is not used: {how}")),
-                Err(Unusable::Newer(found)) => {
-                    return Err(StoreError::Newer { path: folder.join(name), found });
-                }
-            }
-        }
+        let Checkpoints { used, files, notices } = checkpoints(folder)?;
+        let mut found = Found { checkpoints: used, notices, checkpoint_files: files, ..Found::default() };
+        let recorded = found.checkpoints.first().map(|checkpoint| checkpoint.config.clone());
         // Compared before the journal is opened for writing: a refused resume leaves everything as it was.
-        let path = folder::journal(folder);
-        let left = journal::read(&path)?;
-        if let Some(found) = left.newer {
-            return Err(StoreError::Newer { path, found });
-        }
-        if let Some(recorded) = recorded.as_ref().or(left.config.as_ref()) {
-            let keys = differing_keys(recorded, &config);
-            if !keys.is_empty() {
-                return Err(StoreError::OtherConfig { folder: folder.to_path_buf(), keys });
-            }
-        }
+        let (path, left) = journalled(folder)?;
+        refuse_other(folder, recorded.as_ref().or(left.config.as_ref()), &config)?;
         let journal = Journal::resume(&path, &config, &left)?;
         if left.damaged > 0 {
             found.notices.push(format!("{JOURNAL}: damaged lines left out: {}", left.damaged));
         }
         found.entries = left.entries;
-        Ok(Self { folder: folder.to_path_buf(), config, journal, found })
+        Ok(Self { folder: folder.to_path_buf(), config, journal, found, worked: false })
+    }
+
+    /// Whether a run in `folder` can be gone on with; nothing is opened for writing.
+    ///
+    /// # Errors
+    /// As [`Store::resume`].
+    pub fn check(folder: &Path, config: &Value) -> Result<(), StoreError> {
+        refuse_other(folder, Self::recorded_config(folder)?.as_ref(), config)
     }
 
     /// The config recorded in `folder`, if a run was begun there: the seed that was drawn is in it.
     ///
     /// # Errors
-    /// If a file exists and cannot be read.
+    /// If a file exists and cannot be read, or a later program wrote it.
     pub fn recorded_config(folder: &Path) -> Result<Option<Value>, StoreError> {
-        for name in [CHECKPOINT, CHECKPOINT_PREVIOUS] {
-            if let Ok(Some(checkpoint)) = checkpoint::read(&folder.join(name)) {
-                return Ok(Some(checkpoint.config));
-            }
+        if let Some(checkpoint) = checkpoints(folder)?.used.into_iter().next() {
+            return Ok(Some(checkpoint.config));
         }
-        Ok(journal::read(&folder::journal(folder))?.config)
+        Ok(journalled(folder)?.1.config)
+    }
+
+    /// Whether anything was evaluated, or a generation finished, since the files were opened.
+    pub fn worked(&self) -> bool {
+        self.worked
     }
 
     /// The state to go on from.
@@ -182,11 +174,13 @@ impl Store {
         child: &Child,
         evaluation: &Evaluation,
     ) -> Result<(), StoreError> {
+        self.worked = true;
         self.journal.append(&Entry::of(generation, slot, child, evaluation))
     }
 
     /// Writes the state after a finished generation; the checkpoint before becomes the previous one.
     pub(crate) fn checkpoint(&mut self, state: &State) -> Result<(), StoreError> {
+        self.worked = true;
         self.journal.sync()?;
         let (newest, previous) = (self.folder.join(CHECKPOINT), self.folder.join(CHECKPOINT_PREVIOUS));
         let bytes = Checkpoint::of(state, &self.config).to_bytes();
@@ -195,6 +189,48 @@ impl Store {
             fs::rename(&newest, &previous).map_err(|error| StoreError::io(&previous, error))?;
         }
         atomic::write(&newest, &bytes).map_err(|error| StoreError::io(&newest, error))
+    }
+}
+
+/// Refuses a config that differs from the recorded one in what may not differ.
+fn refuse_other(folder: &Path, recorded: Option<&Value>, config: &Value) -> Result<(), StoreError> {
+    let keys = recorded.map(|recorded| differing_keys(recorded, config)).unwrap_or_default();
+    match keys.is_empty() {
+        true => Ok(()),
+        false => Err(StoreError::OtherConfig { folder: folder.to_path_buf(), keys }),
+    }
+}
+
+/// The checkpoints of a folder, the newest first.
+struct Checkpoints {
+    used: Vec<Checkpoint>,
+    /// How many are there, the damaged ones included.
+    files: usize,
+    notices: Vec<String>,
+}
+
+fn checkpoints(folder: &Path) -> Result<Checkpoints, StoreError> {
+    let mut found = Checkpoints { used: Vec::new(), files: 0, notices: Vec::new() };
+    for name in [CHECKPOINT, CHECKPOINT_PREVIOUS] {
+        let path = folder.join(name);
+        found.files += usize::from(path.exists());
+        match checkpoint::read(&path) {
+            Ok(Some(checkpoint)) => found.used.push(checkpoint),
+            Ok(None) => {}
+            Err(Unusable::Damaged(how)) => found.notices.push(format!("{name} is not used: {how}")),
+            Err(Unusable::Newer(found)) => return Err(StoreError::Newer { path, found }),
+        }
+    }
+    Ok(found)
+}
+
+/// The journal of a folder, and what is in it.
+fn journalled(folder: &Path) -> Result<(PathBuf, journal::Left), StoreError> {
+    let path = folder::journal(folder);
+    let left = journal::read(&path)?;
+    match left.newer {
+        Some(found) => Err(StoreError::Newer { path, found }),
+        None => Ok((path, left)),
     }
 }
 

@@ -1,0 +1,81 @@
+//! A config with the files that it names, as they were when it was read.
+
+use super::error::{ConfigError, Place, Problem};
+use super::path::KeyPath;
+use super::source::Source;
+use super::{Config, read_inputs, resolved, rules, schema};
+use crate::io::Inputs;
+use std::path::{Path, PathBuf};
+
+/// A checked config and its inputs: each file was read once, and nothing that happens to one on the disk from now on
+/// changes anything.
+#[derive(Debug)]
+pub struct Project {
+    /// The config, defaults filled in.
+    pub config: Config,
+    /// The files that it names.
+    pub inputs: Inputs,
+    /// The folder to which their names are relative, from the root and without `..`.
+    pub folder: PathBuf,
+    source: Source,
+}
+
+impl Project {
+    /// Reads a config file, `-` for stdin, with `key=value` arguments laid over it, and the files that it names.
+    ///
+    /// # Errors
+    /// As [`load`](super::load).
+    pub fn open(file: &Path, sets: &[String]) -> Result<Self, ConfigError> {
+        let source = Source::read(file, sets)?;
+        let stem = file.file_stem().filter(|_| !is_stream(file));
+        let stem = stem.map_or("run".into(), |stem| stem.to_string_lossy().into_owned());
+        let mut config = parse(&source)?;
+        config.run.name.get_or_insert(stem);
+        resolved::fill_in(&mut config, source.values());
+        let folder = folder_of(file);
+        let inputs = read_inputs(&config, folder);
+        let problems = rules::check(&config, &inputs);
+        if !problems.is_empty() {
+            return Err(source.locate(problems));
+        }
+        Ok(Self { config, inputs, folder: from_the_root(folder), source })
+    }
+
+    /// Where the config says something, for errors that only show when it is put to use.
+    pub fn place(&self, key: &str) -> Place {
+        self.source.place(&KeyPath::of(key))
+    }
+}
+
+fn parse(source: &Source) -> Result<Config, ConfigError> {
+    let problems = schema::check(source.values());
+    if !problems.is_empty() {
+        return Err(source.locate(problems));
+    }
+    serde_path_to_error::deserialize(source.values().clone()).map_err(|error| {
+        // The schema lets nothing through that serde refuses; should it, the key is still named.
+        let key = KeyPath::of(&error.path().to_string());
+        source.locate(vec![Problem::new(key, error.inner().message().to_owned())])
+    })
+}
+
+/// The folder to which the paths in a config file are relative; of one that comes through a pipe, the current one.
+pub fn folder_of(file: &Path) -> &Path {
+    match file.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() && !is_stream(file) => folder,
+        _ => Path::new("."),
+    }
+}
+
+/// Whether a config comes from stdin or a pipe, as `-`, `/dev/stdin` and `<(…)` of a shell do.
+fn is_stream(file: &Path) -> bool {
+    let device = ["-", "/dev", "/proc"].iter().any(|start| file.starts_with(start));
+    device || (file.exists() && !file.is_file() && !file.is_dir())
+}
+
+/// A folder by a path without `..`, `.` and links, so that it is found again from anywhere.
+fn from_the_root(folder: &Path) -> PathBuf {
+    // Windows' own form of such a path begins with `\\?\`, which few programs take; `absolute` removes `..` there.
+    let real = if cfg!(windows) { std::path::absolute(folder) } else { folder.canonicalize() };
+    real.unwrap_or_else(|_| folder.to_path_buf())
+}
