@@ -9,7 +9,7 @@ use std::hash::{BuildHasher, Hasher, RandomState};
 /// The generator used everywhere: named, portable, seekable.
 pub type Rng = ChaCha8Rng;
 
-/// The stream of one individual of one generation (RUN "Reproducible"): independent of all others, so that
+/// The stream of one individual of one generation (docs/reference/search.md §7): independent of all others, so that
 /// nothing depends on the order in which individuals are bred.
 pub fn stream(seed: u64, generation: u32, individual: u32) -> Rng {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);

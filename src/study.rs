@@ -141,7 +141,7 @@ pub struct Design {
     pub response: Option<Response>,
 }
 
-/// Why a design is not whole: data, ranked by the stage it reached (RUN "Failures are data").
+/// Why a design is not whole: data, ranked by the stage it reached (docs/reference/search.md §1.2).
 #[derive(Clone, Debug)]
 pub struct Failure {
     /// Stage and measure.
@@ -352,7 +352,7 @@ impl Study {
         self.growth().neighbours(expressed, reach)
     }
 
-    /// The codes by which the search tells duplicates (RUN "Redundancy"): the design's own, then those of its
+    /// The codes by which the search tells duplicates (docs/reference/search.md §4): the design's own, then those of its
     /// deletions of up to `min_distance` − 1 strips.
     fn neighbourhood(&self, mesh: &QuadMesh, topology: &CanonicalMesh) -> Vec<(Code, u8)> {
         let EquivalenceParams { placed, reduce, mirror } = self.search.duplicates.equivalence;
@@ -380,7 +380,7 @@ impl Study {
     }
 }
 
-/// The initial mesh of the config with its marks: not sharp where the domain has no corners (GEOMETRY §0.4).
+/// The initial mesh of the config with its marks: not sharp where the domain has no corners (docs/reference/geometry.md §0.4).
 fn initial_mesh(config: &Config, domain: &Domain, inputs: &Inputs) -> Result<InitialMesh, StudyError> {
     let base = skeleton::initial(&config.topology, domain, inputs)?;
     let mut initial = InitialMesh::from_base(&base)?;

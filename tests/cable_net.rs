@@ -1,4 +1,4 @@
-//! The cable net of the paper's Figures 20 and 21: five designs between a rectangle and two circles (GEOMETRY §5).
+//! The cable net of the paper's Figures 20 and 21: five designs between a rectangle and two circles (docs/reference/geometry.md §5).
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use assert_cmd::Command;

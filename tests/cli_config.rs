@@ -1,4 +1,4 @@
-//! A wrong config ends with exit code 2 and says where and what (RUN "Commands").
+//! A wrong config ends with exit code 2 and says where and what (docs/reference/files.md §7).
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use assert_cmd::Command;

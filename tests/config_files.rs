@@ -79,7 +79,7 @@ fn differences_name_keys() {
     );
 }
 
-/// GEOMETRY §2.4: the paper's cable net is relaxed otherwise than its gridshell, unless the config says so.
+/// docs/reference/geometry.md §2.4: the paper's cable net is relaxed otherwise than its gridshell, unless the config says so.
 #[test]
 fn a_free_surface_has_its_own_defaults() {
     let folder = tempfile::tempdir().unwrap();

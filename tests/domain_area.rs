@@ -106,8 +106,8 @@ fn a_mesh_has_the_area_of_its_triangles() {
     }
 }
 
-/// The number is that of a grid of 15,544 × 11,720 points, 6 mm apart, in a program of its own; the grid here is the coarser
-/// one of the prototype of PATTERN.
+/// The number is that of a grid of 15,544 × 11,720 points, 6 mm apart, in a program of its own; the grid here is a
+/// coarser one.
 #[test]
 fn the_great_court() {
     let walls = [[-36.625, -51.125], [36.625, -51.125], [36.625, 46.025], [-36.625, 46.025]];

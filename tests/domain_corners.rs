@@ -1,4 +1,4 @@
-//! Corners that are found within a tenth of a target length (PATTERN §4), and how far a curve lies from its chords.
+//! Corners that are found within a tenth of a target length (docs/reference/geometry.md §1.1), and how far a curve lies from its chords.
 
 #![allow(clippy::unwrap_used, reason = "tests")]
 

@@ -57,7 +57,7 @@ fn meets(pattern: &Pattern, params: &StructureParams, fixed_m: f64) -> bool {
     }
 }
 
-/// Test the largest, then bisect (STRUCTURE).
+/// Test the largest, then bisect (docs/reference/structure.md §6.3).
 fn bisected(pattern: &Pattern, params: &StructureParams) -> Option<f64> {
     let (mut low, mut high) = (MIN, MAX);
     if !meets(pattern, params, high) {

@@ -1,4 +1,4 @@
-//! Everything after the grammar is a function of the canonical code (GEOMETRY §0.5).
+//! Everything after the grammar is a function of the canonical code (docs/reference/geometry.md §0.5).
 
 mod geometry_support;
 

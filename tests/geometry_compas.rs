@@ -1,4 +1,4 @@
-//! The metrics against COMPAS 2 on an exported pattern (GEOMETRY §3): numbers computed once by
+//! The metrics against COMPAS 2 on an exported pattern (docs/reference/geometry.md §3): numbers computed once by
 //! `tests/data/geometry/compas_metrics.py` with COMPAS 2.15.1 and kept.
 
 mod geometry_support;
@@ -82,7 +82,7 @@ fn curvature_skewness_and_edges_agree_with_compas() {
         let found = metrics::panel_area(&pattern.positions, panel);
         assert!((found - area[p]).abs() < TOLERANCE * area[p], "area of panel {p}");
     }
-    // COMPAS divides the distance of the diagonals by the mean edge, GEOMETRY §3 by the mean diagonal.
+    // COMPAS divides the distance of the diagonals by the mean edge, docs/reference/geometry.md §3 by the mean diagonal.
     let flatness = numbers(&expected["flatness"]);
     let planarity = pattern.panels.iter().zip(&flatness).map(|(panel, flatness)| {
         let c = corners(panel);

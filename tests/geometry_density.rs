@@ -1,4 +1,5 @@
-//! Rows of strips (PATTERN §2): as near to the number of panels as any width of rows comes; ties, caps, corners and sides.
+//! Rows of strips (docs/reference/geometry.md §2.2): as near to the number of panels as any width of rows comes; ties, caps, corners and
+//! sides.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 mod geometry_support;

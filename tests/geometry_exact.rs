@@ -1,4 +1,5 @@
-//! Patterns whose positions are known exactly: flat grids, nets of equal force densities, minimal surfaces (GEOMETRY §2.4, §3).
+//! Patterns whose positions are known exactly: flat grids, nets of equal force densities, minimal surfaces
+//! (docs/reference/geometry.md §2.4, §3).
 
 use quadrille::domain::{Domain, DomainParams};
 use quadrille::geometry::params::{RelaxKind, RelaxParams};

@@ -1,4 +1,4 @@
-//! `quadrille decode` and `quadrille distance`, as a user runs them (RUN, "JSON that other programs may rely on").
+//! `quadrille decode` and `quadrille distance`, as a user runs them (docs/reference/files.md §3).
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 mod grammar_cases;

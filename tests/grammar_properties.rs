@@ -1,4 +1,4 @@
-//! What holds of every string on every mesh (GRAMMAR §1–§6), on random strings of fixed seeds.
+//! What holds of every string on every mesh (docs/reference/grammar.md §1–§6), on random strings of fixed seeds.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 mod grammar_cases;

@@ -1,4 +1,5 @@
-//! Limits of a pattern that can be built (PATTERN §5): edges, every corner of every panel, valences, vertices at one place.
+//! Limits of a pattern that can be built (docs/reference/geometry.md §2.6): edges, every corner of every panel, valences, vertices at one
+//! place.
 
 #![allow(clippy::unwrap_used, reason = "tests")]
 

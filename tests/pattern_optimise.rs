@@ -1,4 +1,5 @@
-//! Patterns that can be built (PATTERN §3): small domains that a smoothing stage fails on, turned, mirrored, moved and scaled.
+//! Patterns that can be built (docs/reference/geometry.md §6): small domains that a smoothing stage fails on, turned, mirrored, moved and
+//! scaled.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use quadrille::config;

@@ -1,4 +1,4 @@
-//! RUN "Reproducible": the run that continuous integration repeats.
+//! docs/reference/files.md §6: the run that continuous integration repeats.
 //!
 //! `results/ci/*.csv` was written by `cargo run --release -- run configs/ci.toml --out results/ci --force`. The same
 //! program, CPU and seed give the same bytes for any number of threads; other CPUs the same strings and numbers to 1e-6.

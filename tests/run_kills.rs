@@ -1,4 +1,4 @@
-//! RUN "Results folder": a run that is killed, interrupted, damaged or out of space goes on with `--resume` and ends
+//! docs/reference/files.md §5.2: a run that is killed, interrupted, damaged or out of space goes on with `--resume` and ends
 //! with the bytes of the undisturbed one. Here the program itself is treated so; `search_resume.rs` does it to the
 //! library.
 //!

@@ -46,7 +46,7 @@ fn singularities(base: &BaseMesh, mesh: &InitialMesh) -> Vec<(usize, usize)> {
     (0..valence.len()).filter(|v| !corners.contains(v)).filter(irregular).map(|v| (v, valence[v])).collect()
 }
 
-/// GEOMETRY §1: 12 faces, 20 vertices, four 5-valent singularities equally far from two walls and the circle.
+/// docs/reference/geometry.md §1.3: 12 faces, 20 vertices, four 5-valent singularities equally far from two walls and the circle.
 #[test]
 fn the_great_court() {
     let (_, base, mesh) = mesh("great_court");

@@ -65,7 +65,8 @@ fn files_in_three_formats_are_one_mesh() {
     }
 }
 
-/// Loop labels follow vertex numbers (GRAMMAR §1): a file that numbers its holes otherwise than the domain is renumbered.
+/// Loop labels follow vertex numbers (docs/reference/grammar.md §1.6): a file that numbers its holes otherwise than the domain is
+/// renumbered.
 #[test]
 fn holes_take_the_order_of_the_domain() {
     let text = format!("{SQUARE}{HOLES}");

@@ -1,4 +1,4 @@
-//! Starts from the skeleton keep the limits that concern topology alone (PATTERN §1), wherever the domain is.
+//! Starts from the skeleton keep the limits that concern topology alone (docs/reference/geometry.md §1.4), wherever the domain is.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 mod domains;
@@ -31,7 +31,7 @@ fn corner_angle(domain: &Domain, corner: usize) -> f64 {
     if label == 0 { 180.0 - turn } else { 180.0 + turn }
 }
 
-/// What a start breaks of PATTERN §1.
+/// What a start breaks of docs/reference/geometry.md §1.4.
 fn faults(domain: &Domain, base: &BaseMesh) -> Vec<String> {
     let mesh = InitialMesh::from_base(base).unwrap().mesh;
     let mut faults = Vec::new();

@@ -1,4 +1,4 @@
-//! GEOMETRY §0 and §2 on the Great Court: a design is a function of its code, and lies where it must.
+//! docs/reference/geometry.md §0 and §2 on the Great Court: a design is a function of its code, and lies where it must.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use quadrille::config;
@@ -242,7 +242,7 @@ fn between_several_holes_panels_are_not_crowded() {
 }
 
 /// Three faces around a hole that is a 16-gon: fifteen of its corners have no coarse vertex, more than a probe of four parts
-/// a strip has room for. They go to dense vertices of the pattern, one each (GEOMETRY §0.2).
+/// a strip has room for. They go to dense vertices of the pattern, one each (docs/reference/geometry.md §0.2).
 #[test]
 fn corners_nobody_took_find_vertices_however_many() {
     let corner = |k: u32| {

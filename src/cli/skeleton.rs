@@ -59,7 +59,7 @@ fn initial_mesh(Project { config, inputs, .. }: &Project) -> Result<(Domain, Bas
     Ok((domain, base))
 }
 
-/// A base mesh file, as RUN describes it.
+/// A base mesh file, as docs/reference/files.md §3.1 describes it.
 fn to_json(base: &BaseMesh) -> serde_json::Value {
     json!({
         "vertices": base.vertices,

@@ -11,7 +11,7 @@ use toml::{Table, Value};
 /// Fills in defaults that depend on other keys; `given` is the config as written.
 pub(super) fn fill_in(config: &mut Config, given: &Table) {
     if config.surface == (SurfaceParams::Free {}) {
-        // GEOMETRY §2.4: the paper's cable net, not its gridshell.
+        // docs/reference/geometry.md §2.4: the paper's cable net, not its gridshell.
         let relax = given.get("pattern").and_then(|pattern| pattern.get("relax"));
         let is_given = |key: &str| relax.is_some_and(|relax| relax.get(key).is_some());
         if !is_given("kind") {

@@ -1,4 +1,4 @@
-//! Area of the surface within the boundary (PATTERN §2): what target lengths come from.
+//! Area of the surface within the boundary (docs/reference/geometry.md §1.2): what target lengths come from.
 
 use super::curve::Curve;
 use crate::surface::{Surface, SurfaceKind};

@@ -1,5 +1,5 @@
-//! Corners that are found (PATTERN §4): where a polyline turns within a short way, whether at one kink or at several, as a fillet of
-//! a millimetre does that a drawing program made of four.
+//! Corners that are found (docs/reference/geometry.md §1.1): where a polyline turns within a short way, whether at one kink or at several,
+//! as a fillet of a millimetre does that a drawing program made of four.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-//! The domain: boundary loops and their corners, on the surface (GEOMETRY §1).
+//! The domain: boundary loops and their corners, on the surface (docs/reference/geometry.md §1.1).
 
 mod area;
 mod boundary;
@@ -41,7 +41,7 @@ impl Grain {
     }
 }
 
-/// Share of a target length within which the curve turns at a corner, however many kinks it takes (PATTERN §4).
+/// Share of a target length within which the curve turns at a corner, however many kinks it takes (docs/reference/geometry.md §1.1).
 const TURN: f64 = 0.1;
 
 /// A region of the plan with its boundary on the surface.
@@ -141,7 +141,7 @@ impl Domain {
     }
 
     /// Where no loop has a corner: arc length on loop 0 of the mark that fixes the turn of a pattern, by default its point of
-    /// largest x (GEOMETRY §0.4). It is not sharp.
+    /// largest x (docs/reference/geometry.md §0.4). It is not sharp.
     pub fn mark(&self) -> Option<f64> {
         (self.corner_count() == 0).then(|| self.loops[0].arc_length(self.mark))
     }
@@ -168,7 +168,7 @@ impl Domain {
     }
 
     /// Area of the surface within the boundary, m²; on a free surface the plan area. It is a property of the domain alone, so
-    /// that a target length taken from it is the same for all designs (PATTERN §2).
+    /// that a target length taken from it is the same for all designs (docs/reference/geometry.md §2.2).
     pub fn surface_area(&self) -> f64 {
         self.surface_area
     }

@@ -1,4 +1,4 @@
-//! Symmetries of boundary and surface (GEOMETRY §0.5).
+//! Symmetries of boundary and surface (docs/reference/geometry.md §0.5).
 
 use super::params::Symmetry as Kind;
 use super::{Domain, DomainError};

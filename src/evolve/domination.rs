@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// The stage of a design that could not be evaluated at all: ranked after everything else.
 pub const FAILED: u8 = 6;
 
-/// How badly a design breaks its constraints: the stage first, then the measure (RUN "Failures are data").
+/// How badly a design breaks its constraints: the stage first, then the measure (docs/reference/search.md §1.2).
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Violation {
     /// 0 = feasible; larger stages are worse.

@@ -1,4 +1,4 @@
-//! Where the dense boundary vertices stand along their curves (GEOMETRY §0.2, §2.1).
+//! Where the dense boundary vertices stand along their curves (docs/reference/geometry.md §0.2, §2.1).
 
 use super::coarse::Coarse;
 use super::corners::LoopCorners;

@@ -1,4 +1,4 @@
-//! Folds, vertices outside the domain (GEOMETRY §2.5), vertices at one place (PATTERN §5).
+//! Folds, vertices outside the domain, vertices at one place (docs/reference/geometry.md §2.5).
 
 use super::boundary;
 use super::pattern::{Panel, Pattern};

@@ -1,4 +1,4 @@
-//! Conway operators on the dense mesh, for output (GEOMETRY §2; paper, Figure 22).
+//! Conway operators on the dense mesh, for output (docs/reference/geometry.md §2.7; paper, Figure 22).
 //!
 //! A mesh with a boundary has no closed dual; here every operator covers the same region as the pattern and keeps its
 //! outline: cells that the boundary cuts are closed along it.

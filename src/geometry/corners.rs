@@ -1,4 +1,4 @@
-//! Which boundary vertex takes which corner of the domain (GEOMETRY §0.2).
+//! Which boundary vertex takes which corner of the domain (docs/reference/geometry.md §0.2).
 
 use super::coarse::Coarse;
 use crate::domain::Domain;
@@ -18,7 +18,7 @@ pub struct LoopCorners {
     pub at: Vec<f64>,
     /// For each, the coarse vertex that takes it.
     pub taken: Vec<Option<u32>>,
-    /// Whether they are kinks; false for the one mark of a domain without corners (GEOMETRY §0.4).
+    /// Whether they are kinks; false for the one mark of a domain without corners (docs/reference/geometry.md §0.4).
     pub sharp: bool,
 }
 

@@ -1,4 +1,4 @@
-//! From the coarse mesh and the densities of its strips to the dense mesh: topology only (GEOMETRY §2.3).
+//! From the coarse mesh and the densities of its strips to the dense mesh: topology only (docs/reference/geometry.md §2.3).
 
 use super::coarse::Coarse;
 use super::pattern::Panel;

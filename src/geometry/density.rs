@@ -1,4 +1,4 @@
-//! How many rows each strip has (PATTERN §2).
+//! How many rows each strip has (docs/reference/geometry.md §2.2).
 
 use super::coarse::Coarse;
 use super::dense::panel_count;

@@ -1,4 +1,4 @@
-//! The chain from the canonical mesh to a checked pattern, each step a function of the one before (GEOMETRY §0).
+//! The chain from the canonical mesh to a checked pattern, each step a function of the one before (docs/reference/geometry.md §0).
 
 use super::boundary::{self, BoundaryLoop};
 use super::check;
@@ -20,7 +20,7 @@ use crate::mesh::CanonicalMesh;
 use crate::surface::Surface;
 
 /// What is wrong with a mesh before any geometry: other loops than the domain, flat faces, pinched vertices, and, with `limits`, vertices
-/// whose panels break them in every pattern (PATTERN §1).
+/// whose panels break them in every pattern (docs/reference/geometry.md §1.4).
 pub fn topological_rejection(
     mesh: &CanonicalMesh,
     domain: &Domain,

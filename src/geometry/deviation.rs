@@ -1,4 +1,4 @@
-//! How far apart the forms of several patterns with one boundary lie (GEOMETRY §5; paper, Figure 21).
+//! How far apart the forms of several patterns with one boundary lie (docs/reference/geometry.md §5; paper, Figure 21).
 
 use super::metrics::edge_lengths;
 use super::pattern::Pattern;

@@ -1,4 +1,4 @@
-//! Limits of a pattern that can be built (PATTERN §5).
+//! Limits of a pattern that can be built (docs/reference/geometry.md §2.6).
 
 use super::metrics::{Fabrication, edge_lengths, least_inner, panel_area, smallest_angle, valences};
 use super::outline;
@@ -7,7 +7,7 @@ use super::pattern::Pattern;
 use crate::domain::Domain;
 
 /// Share of the target length that a member has at least, and that the boundary may lie off the pattern's at most, where
-/// the config does not say (PATTERN §5).
+/// the config does not say (docs/reference/geometry.md §2.6).
 const QUARTER: f64 = 0.25;
 
 /// Longest edge that a pattern is drawn to keep where its limit is looser, in target lengths: with one of 5 t the tips of an ellipse were

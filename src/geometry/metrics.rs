@@ -1,4 +1,4 @@
-//! Fabrication metrics of a dense pattern (GEOMETRY §3); all to be minimised.
+//! Fabrication metrics of a dense pattern (docs/reference/geometry.md §3); all to be minimised.
 
 use super::boundary;
 use super::check::{center, vector_area};

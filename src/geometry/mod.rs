@@ -1,4 +1,4 @@
-//! From the canonical mesh to a dense pattern on the surface, and its fabrication metrics (GEOMETRY).
+//! From the canonical mesh to a dense pattern on the surface, and its fabrication metrics (docs/reference/geometry.md).
 //!
 //! ```text
 //! canonical mesh → corners → (topology: flat, pinched) → density → dense → place → relax → check

@@ -1,4 +1,4 @@
-//! How a pattern keeps the boundary of its domain: its own boundary is a chain of chords (PATTERN §4).
+//! How a pattern keeps the boundary of its domain: its own boundary is a chain of chords (docs/reference/geometry.md §2.6).
 
 use super::pattern::Pattern;
 use crate::domain::Domain;

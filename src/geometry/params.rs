@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// How the canonical mesh becomes a dense pattern (GEOMETRY §2).
+/// How the canonical mesh becomes a dense pattern (docs/reference/geometry.md §2).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct PatternParams {
@@ -51,7 +51,7 @@ impl PatternParams {
     }
 
     /// Target edge length t of all designs on a domain, m: the given one, or with `density = "panels"` √(A/N) for N panels on the
-    /// area A of the surface (PATTERN §2).
+    /// area A of the surface (docs/reference/geometry.md §2.2).
     pub fn target_length(&self, domain: &Domain) -> f64 {
         self.grain().length(domain.surface_area())
     }
@@ -93,7 +93,7 @@ impl Default for RelaxParams {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RelaxKind {
-    /// An energy with barriers at the limits, densities and geometry together (PATTERN §3); needs a surface.
+    /// An energy with barriers at the limits, densities and geometry together (docs/reference/geometry.md §6); needs a surface.
     Optimise,
     /// Mean of the neighbours.
     Uniform,
@@ -158,9 +158,9 @@ pub struct TopologyParams {
     /// Marker of the initial mesh as two vertices of an edge; default the first dart of face 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub marker: Option<[usize; 2]>,
-    /// `"domain"` or `"plain"` (GRAMMAR §2).
+    /// `"domain"` or `"plain"` (docs/reference/grammar.md §2.6).
     pub rules: RulesParam,
-    /// What to do with pinched boundary vertices (GEOMETRY §1).
+    /// What to do with pinched boundary vertices (docs/reference/geometry.md §1.4).
     pub pinched: Pinched,
 }
 
@@ -226,7 +226,7 @@ pub enum Skeleton {
     Skeleton,
 }
 
-/// The set of rules (GRAMMAR §2).
+/// The set of rules (docs/reference/grammar.md §2.6).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RulesParam {

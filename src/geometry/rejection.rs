@@ -1,11 +1,11 @@
-//! Why a design is refused: data, not an error of the run (RUN "Failures are data").
+//! Why a design is refused: data, not an error of the run (docs/reference/search.md §1.2).
 
 use std::fmt;
 
 /// The reason for which geometry refuses a design, with what is needed to rank it among other refused ones.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Rejection {
-    /// Coarse faces that would have no area, and inner edges that would lie in a straight wall (GEOMETRY §1).
+    /// Coarse faces that would have no area, and inner edges that would lie in a straight wall (docs/reference/geometry.md §1.4).
     Flat {
         /// Flat faces, ascending.
         faces: Vec<u32>,
@@ -17,7 +17,8 @@ pub enum Rejection {
         /// The coarse vertices.
         vertices: Vec<u32>,
     },
-    /// Vertices with too many panels for the valence limit or for the angle there is, or too few at a corner (PATTERN §1).
+    /// Vertices with too many panels for the valence limit or for the angle there is, or too few at a corner
+    /// (docs/reference/geometry.md §1.4).
     Crowded {
         /// The coarse vertices, ascending.
         vertices: Vec<u32>,

@@ -1,5 +1,5 @@
-//! Relaxing a dense pattern: guarded Jacobi smoothing on its constraints (GEOMETRY §2.4). Boundary vertices slide along their
-//! curves on a surface; on a free surface they stay where placing put them.
+//! Relaxing a dense pattern: guarded Jacobi smoothing on its constraints (docs/reference/geometry.md §2.4). Boundary vertices slide along
+//! their curves on a surface; on a free surface they stay where placing put them.
 
 use super::boundary::{self, BoundaryLoop};
 use super::params::{RelaxKind, RelaxParams};

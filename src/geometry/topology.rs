@@ -1,4 +1,4 @@
-//! What is refused before any geometry: flat faces and pinched vertices (GEOMETRY §1).
+//! What is refused before any geometry: flat faces and pinched vertices (docs/reference/geometry.md §1.4).
 
 use super::coarse::{Coarse, corners_of, sides_of};
 use super::corners::LoopCorners;
@@ -160,7 +160,7 @@ impl<'a> Available<'a> {
 }
 
 /// Refuses meshes whose vertices break the limits in every pattern: too many panels for the valence or for the angle there is, too few at
-/// a corner or inside (PATTERN §1). The strips that end in a pole count with one row.
+/// a corner or inside (docs/reference/geometry.md §1.4). The strips that end in a pole count with one row.
 pub fn reject_crowded(
     coarse: &Coarse<'_>,
     domain: &Domain,

@@ -4,7 +4,8 @@
 //! Every corner of a panel is a triangle with a map J from the corner of a square of edge length ℓ. The energy
 //! Σ tr JᵀJ / χ(det J) + λ (1 + det² J) / χ(det J) with χ(D) = (D + √(ε² + D²)) / 2 is finite for folded corners too, and ε is
 //! lowered until none is left. Boundary edges have ½ (d² + 1) / χ(d), d their arc length ÷ ℓ, so that vertices keep their order; inner
-//! vertices that are beyond a smooth loop, or nearly so, are driven back by w f², w doubling from round to round (PATTERN §3).
+//! vertices that are beyond a smooth loop, or nearly so, are driven back by w f², w doubling from round to round
+//! (docs/reference/geometry.md §6.5).
 
 use super::optimise::descent::{Bounds, Energy, descend};
 use super::optimise::net::{Net, Places};

@@ -1,4 +1,4 @@
-//! Decoding: a string read to its end (GRAMMAR §2).
+//! Decoding: a string read to its end (docs/reference/grammar.md §2).
 
 use crate::mesh::{DartId, InitialMesh, QuadMesh};
 

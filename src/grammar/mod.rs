@@ -1,4 +1,4 @@
-//! Strings and what they mean: tokens, marker, strip addition and deletion, decoding (GRAMMAR §2–§5).
+//! Strings and what they mean: tokens, marker, strip addition and deletion, decoding (docs/reference/grammar.md §2–§5).
 
 pub mod decode;
 pub mod random;

@@ -1,4 +1,4 @@
-//! The two sets of rules, and why a token can be skipped (GRAMMAR §2).
+//! The two sets of rules, and why a token can be skipped (docs/reference/grammar.md §2.6).
 
 use serde::{Deserialize, Serialize};
 

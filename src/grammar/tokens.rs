@@ -1,4 +1,4 @@
-//! The alphabet and the strings over it (GRAMMAR §2), and the two distances between strings (§6).
+//! The alphabet and the strings over it (docs/reference/grammar.md §2), and the two distances between strings (§6.4).
 
 use std::fmt;
 use std::ops::{Deref, DerefMut};

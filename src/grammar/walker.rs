@@ -1,4 +1,4 @@
-//! The marker and the mesh it walks on: one token at a time (GRAMMAR §2–§4).
+//! The marker and the mesh it walks on: one token at a time (docs/reference/grammar.md §2–§4).
 
 use crate::mesh::contract::contract;
 use crate::mesh::subdivide::subdivide;
@@ -227,7 +227,7 @@ impl Walker {
 }
 
 /// Which strips must be subdivided, and into how many, before `strip` goes, so that every boundary loop keeps at
-/// least 3 edges (§4, step 2). By label.
+/// least 3 edges (§4.2). By label.
 fn refinements(mesh: &QuadMesh, strip: StripId) -> Result<Vec<(StripId, usize)>, Invalid> {
     let mut refined: Vec<(StripId, usize)> = Vec::new();
     for darts in mesh.loops() {

@@ -1,4 +1,4 @@
-//! Meshes in COMPAS JSON: 2.x, the 1.x wrapper, and the bare dictionaries before it (ECOSYSTEM §3a).
+//! Meshes in COMPAS JSON: 2.x, the 1.x wrapper, and the bare dictionaries before it (docs/reference/files.md §4).
 
 use super::text::decode;
 use super::{Input, ReadError};

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-/// Ends nearer to each other than this share of the size meet: exporters round to millimetres (ECOSYSTEM §3b).
+/// Ends nearer to each other than this share of the size meet: exporters round to millimetres (docs/reference/files.md §4).
 pub const MEET: f64 = 1e-4;
 
 /// A polyline, and where it comes from.

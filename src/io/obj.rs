@@ -1,6 +1,6 @@
 //! Wavefront OBJ: vertices, faces and polylines. Every fault is told with its line.
 //!
-//! What exporters really do (ECOSYSTEM §3b): `a/b/c` corners, negative indices, `\`-continued lines, line ends of all systems,
+//! What exporters really do (docs/reference/files.md §4): `a/b/c` corners, negative indices, `\`-continued lines, line ends of all systems,
 //! comments in other encodings or ending in a path's `\`, and curves in pieces of two vertices. All of that is read; other keywords
 //! are left out, those of the format (free-form geometry, groups, materials) and those of exporters alike.
 

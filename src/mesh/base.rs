@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-/// An initial coarse quad mesh, from a file, from the config, or from the skeleton (GEOMETRY §1).
+/// An initial coarse quad mesh, from a file, from the config, or from the skeleton (docs/reference/geometry.md §1.3).
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct BaseMesh {
     /// Vertex positions, m.

@@ -1,4 +1,4 @@
-//! Base mesh files: `{"vertices", "faces", "poles", "marker", "corners"}` (RUN, "JSON that other programs may rely on").
+//! Base mesh files: `{"vertices", "faces", "poles", "marker", "corners"}` (docs/reference/files.md §3.1).
 
 use std::collections::BTreeMap;
 

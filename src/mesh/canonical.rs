@@ -1,8 +1,8 @@
-//! The canonical mesh: all that the stages after the grammar may know of a design (GEOMETRY §0).
+//! The canonical mesh: all that the stages after the grammar may know of a design (docs/reference/geometry.md §0).
 
 use std::fmt;
 
-/// A canonical code (GRAMMAR §6): equal exactly for isomorphic meshes.
+/// A canonical code (docs/reference/grammar.md §7): equal exactly for isomorphic meshes.
 ///
 /// The first 128 bits of the SHA-256 of the code's numbers joined by commas; printed as its first 16 hex digits,
 /// as the reference cases do.
@@ -27,7 +27,7 @@ pub struct Strip {
 }
 
 /// The placed + reduced mesh, its vertices, faces and strips numbered in the order in which the smallest code
-/// discovers them (GEOMETRY §0.1). Equal codes give equal values of this type.
+/// discovers them (docs/reference/geometry.md §0.1). Equal codes give equal values of this type.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct CanonicalMesh {
     /// The placed + reduced code.

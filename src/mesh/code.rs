@@ -1,4 +1,4 @@
-//! Canonical codes (GRAMMAR §6): two meshes have the same code exactly when they are isomorphic.
+//! Canonical codes (docs/reference/grammar.md §7): two meshes have the same code exactly when they are isomorphic.
 //!
 //! The darts are numbered from a root in a fixed traversal (from every dart, in number order, `next` before `twin`)
 //! and the map is written down as one entry a dart: number of `next`, number of `twin`, colour. The smallest list

@@ -1,4 +1,4 @@
-//! Strip deletion: the faces of a strip vanish, its transverse edges become points (GRAMMAR §4, steps 1–3).
+//! Strip deletion: the faces of a strip vanish, its transverse edges become points (docs/reference/grammar.md §4.3).
 
 use super::ids::{DartId, FaceId, StripId, VertexId};
 use super::quad_mesh::{Dart, Left, Mark, QuadMesh};

@@ -1,4 +1,4 @@
-//! Topological distance: how many strips apart two meshes are (GRAMMAR §6).
+//! Topological distance: how many strips apart two meshes are (docs/reference/grammar.md §6.3).
 
 use std::collections::BTreeMap;
 
@@ -49,7 +49,7 @@ fn balanced_first(total: usize) -> impl Iterator<Item = usize> {
 }
 
 /// Codes of a mesh and of all that is left of it after deleting up to `depth` strips, each with the fewest
-/// deletions that lead there (RUN "Redundancy": two designs are at most i + j apart if their sets meet so).
+/// deletions that lead there (docs/reference/search.md §4: two designs are at most i + j apart if their sets meet so).
 pub fn deletions(mesh: &QuadMesh, depth: usize, equivalence: Equivalence) -> BTreeMap<Code, u32> {
     let mut descent = Descent::new(mesh, equivalence);
     descent.reach(depth);

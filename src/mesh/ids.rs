@@ -32,7 +32,7 @@ id!(
     FaceId, "f"
 );
 id!(
-    /// A strip label (GRAMMAR §5).
+    /// A strip label (docs/reference/grammar.md §5).
     StripId, "s"
 );
 id!(

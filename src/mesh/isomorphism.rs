@@ -1,4 +1,4 @@
-//! Same or different (GRAMMAR §6): codes under the options of isomorphism, the canonical mesh, symmetries.
+//! Same or different (docs/reference/grammar.md §6): codes under the options of isomorphism, the canonical mesh, symmetries.
 
 use super::canonical::{CanonicalMesh, Code, Strip};
 use super::code::{self, Numbering};
@@ -118,13 +118,13 @@ impl Symmetry {
     }
 }
 
-/// The canonical mesh of a design (GEOMETRY §0.1): placed and reduced, numbered in the order in which the smallest
+/// The canonical mesh of a design (docs/reference/geometry.md §0.1): placed and reduced, numbered in the order in which the smallest
 /// code discovers it. A function of the placed + reduced code alone: roots that tie are automorphisms.
 pub fn canonical_mesh(mesh: &QuadMesh) -> CanonicalMesh {
     numbered(&Equivalence::default().representative(mesh))
 }
 
-/// The canonical mesh with the smallest code over a group of symmetries of the domain (GEOMETRY §0.5); the
+/// The canonical mesh with the smallest code over a group of symmetries of the domain (docs/reference/geometry.md §0.5); the
 /// identity always belongs to it.
 pub fn canonical_mesh_under(mesh: &QuadMesh, symmetries: &[Symmetry]) -> CanonicalMesh {
     let placed = Equivalence::default();

@@ -13,7 +13,7 @@ pub const MAX_CORNERS: usize = 112;
 /// So that means and areas of coordinates stay finite.
 const MAX_COORDINATE_M: f64 = 1e100;
 
-/// What is wrong with an initial mesh (GRAMMAR §1). Vertices, faces and corners are numbered as in the input, from 0.
+/// What is wrong with an initial mesh (docs/reference/grammar.md §1.7). Vertices, faces and corners are numbered as in the input, from 0.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 #[expect(missing_docs, reason = "the messages say it")]
 pub enum BaseMeshError {
@@ -89,7 +89,7 @@ impl BaseMeshError {
 /// An initial mesh and the start of its marker.
 #[derive(Clone, Debug)]
 pub struct InitialMesh {
-    /// The mesh, its strips labelled in the order of GRAMMAR §5.
+    /// The mesh, its strips labelled in the order of docs/reference/grammar.md §5.
     pub mesh: QuadMesh,
     /// Where the marker starts.
     pub marker: DartId,
@@ -330,7 +330,7 @@ fn area_xy(mesh: &QuadMesh, darts: &[DartId]) -> f64 {
 }
 
 /// Labels 0, 1, 2, … in the order in which a strip's first edge comes when faces are read in order and each face's
-/// edges in order (GRAMMAR §5): the order in which inside darts were made.
+/// edges in order (docs/reference/grammar.md §5): the order in which inside darts were made.
 fn label_strips(mesh: &mut QuadMesh) {
     for d in mesh.darts() {
         if mesh.strip(d).0 == u32::MAX {

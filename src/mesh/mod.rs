@@ -1,4 +1,4 @@
-//! Topology only: coarse quad meshes without coordinates (GRAMMAR §1).
+//! Topology only: coarse quad meshes without coordinates (docs/reference/grammar.md §1).
 
 pub mod base;
 pub mod base_json;

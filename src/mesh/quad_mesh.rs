@@ -1,4 +1,4 @@
-//! The coarse quad mesh as a map of darts, and how to walk on it (GRAMMAR §1).
+//! The coarse quad mesh as a map of darts, and how to walk on it (docs/reference/grammar.md §1).
 //!
 //! A *dart* is a directed edge. `next` goes on around the face on its left (or around the boundary loop, for an
 //! *outside* dart, which has no face there), `twin` is the same edge seen from the other side. These two
@@ -72,7 +72,7 @@ pub struct Mark {
     pub corner: u32,
     /// The boundary vertex that carries it.
     pub vertex: VertexId,
-    /// False for the mark of a domain without corners, which is no kink (GEOMETRY §0.4).
+    /// False for the mark of a domain without corners, which is no kink (docs/reference/geometry.md §0.4).
     pub sharp: bool,
 }
 
@@ -196,7 +196,7 @@ impl QuadMesh {
         self.around(d).find(|&e| self.is_outside(e))
     }
 
-    /// The dart across the face on the left of `d` (GRAMMAR §1): `None` where that is the edge `(p, p)` of a
+    /// The dart across the face on the left of `d` (docs/reference/grammar.md §1): `None` where that is the edge `(p, p)` of a
     /// pole, and on an outside dart.
     pub fn opposite(&self, d: DartId) -> Option<DartId> {
         let next = self.next(d);
@@ -281,7 +281,7 @@ impl QuadMesh {
         corners
     }
 
-    /// Declares a mark to be no kink of the boundary (GEOMETRY §0.4): it is handed on and coded like any other,
+    /// Declares a mark to be no kink of the boundary (docs/reference/geometry.md §0.4): it is handed on and coded like any other,
     /// but the domain rules of the grammar do not see it.
     pub fn blunt(&mut self, corner: u32) {
         for mark in self.marks.iter_mut().filter(|mark| mark.corner == corner) {

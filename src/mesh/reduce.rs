@@ -1,4 +1,4 @@
-//! Merging of topologically parallel strips (GRAMMAR §6, `reduce`): they change only density.
+//! Merging of topologically parallel strips (docs/reference/grammar.md §6.2, `reduce`): they change only density.
 
 use std::collections::BTreeSet;
 

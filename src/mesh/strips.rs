@@ -1,4 +1,4 @@
-//! Strips: the maximal chains of opposite edges (GRAMMAR §1), walked on the map.
+//! Strips: the maximal chains of opposite edges (docs/reference/grammar.md §1.4), walked on the map.
 
 use super::ids::{DartId, StripId};
 use super::quad_mesh::QuadMesh;

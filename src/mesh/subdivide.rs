@@ -1,4 +1,4 @@
-//! Subdivision of a strip into parallel ones, to keep a boundary long enough (GRAMMAR §4, step 2).
+//! Subdivision of a strip into parallel ones, to keep a boundary long enough (docs/reference/grammar.md §4.2).
 
 use super::ids::{DartId, StripId, VertexId};
 use super::quad_mesh::{Dart, Left, QuadMesh};

@@ -1,4 +1,4 @@
-//! Strip addition: unzipping the mesh along a polyedge (GRAMMAR §3).
+//! Strip addition: unzipping the mesh along a polyedge (docs/reference/grammar.md §3).
 //!
 //! Two steps make all of it. *Opening* an edge puts a 2-gon between its two darts, so that each stays with the face
 //! on its own left. *Splitting* a vertex at two of its corners puts a transverse edge across the faces of these

@@ -1,4 +1,4 @@
-//! The conditions V1–V5 of a valid mesh (GRAMMAR §1), and the invariants of the map behind them.
+//! The conditions V1–V5 of a valid mesh (docs/reference/grammar.md §1.2), and the invariants of the map behind them.
 
 use super::ids::{DartId, VertexId};
 use super::quad_mesh::QuadMesh;

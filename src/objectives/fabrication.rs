@@ -1,4 +1,4 @@
-//! Measures of the dense pattern (GEOMETRY §3).
+//! Measures of the dense pattern (docs/reference/geometry.md §3).
 
 use super::{AnalysedDesign, Metric};
 

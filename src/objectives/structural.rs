@@ -1,4 +1,4 @@
-//! Numbers of the frame analysis (STRUCTURE).
+//! Numbers of the frame analysis (docs/reference/structure.md §6.2).
 
 use super::Metric;
 

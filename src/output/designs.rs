@@ -1,4 +1,4 @@
-//! `pareto.csv` and `history.csv`: one row per design (RUN "Results folder").
+//! `pareto.csv` and `history.csv`: one row per design (docs/reference/files.md §2.1).
 
 use super::table::{Cell, Dialect, Table};
 use crate::mesh::canonical::Code;

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 /// How many of the nearest misses are drawn where nothing is feasible.
 const MISSES: usize = 12;
-/// The last stage at which a design has a pattern to draw: folds (RUN "Failures are data").
+/// The last stage at which a design has a pattern to draw: folds (docs/reference/search.md §1.2).
 const DRAWN: u8 = 3;
 
 /// Counts of designs and of what they exceed; a design may count under several limits.
@@ -89,7 +89,7 @@ pub fn initial_mesh(violation: Violation, reason: &str) -> String {
     }
 }
 
-/// RUN "Failures are data".
+/// docs/reference/search.md §1.2.
 fn failure(stage: u8) -> &'static str {
     match stage {
         2 => "unstable or a mechanism",

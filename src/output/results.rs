@@ -1,4 +1,4 @@
-//! Writes a whole results folder (RUN "Results folder").
+//! Writes a whole results folder (docs/reference/files.md §1).
 
 use super::analysed::{Analysed, PanelShapes};
 use super::compas::compas;

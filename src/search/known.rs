@@ -1,4 +1,4 @@
-//! Which designs are known, and how near a new one is to them (RUN "Redundancy").
+//! Which designs are known, and how near a new one is to them (docs/reference/search.md §4).
 
 use std::collections::HashMap;
 

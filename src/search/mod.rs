@@ -1,4 +1,4 @@
-//! The search over strings: breeding, duplicates, cache, archive, checkpoint (RUN "The search").
+//! The search over strings: breeding, duplicates, cache, archive, checkpoint (docs/reference/search.md).
 //!
 //! [`run`] knows strings, codes and numbers. What a string means and what it is worth it asks of a [`Problem`],
 //! through a [`Server`] that evaluates batches.

@@ -1,4 +1,4 @@
-//! Normalised objectives, and the hypervolume that is measured in them (RUN "Hypervolume").
+//! Normalised objectives, and the hypervolume that is measured in them (docs/reference/search.md §6).
 
 use serde::{Deserialize, Serialize};
 

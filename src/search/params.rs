@@ -18,7 +18,7 @@ pub struct ObjectivesParams {
     pub reference: Vec<f64>,
 }
 
-/// How strings are bred (RUN "The search").
+/// How strings are bred (docs/reference/search.md).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SearchParams {
@@ -259,7 +259,7 @@ impl Default for DuplicateParams {
     }
 }
 
-/// Options of isomorphism (GRAMMAR §6).
+/// Options of isomorphism (docs/reference/grammar.md §6).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct EquivalenceParams {

@@ -34,7 +34,7 @@ pub trait Problem: Sync {
     fn vary(&self, operator: RuleOperator, expressed: &Tokens, rng: &mut Rng) -> Option<Tokens>;
 }
 
-/// Operators that work on whole rules (RUN "Operators").
+/// Operators that work on whole rules (docs/reference/search.md §2).
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum RuleOperator {
     /// Append a strip along a valid polyedge reached by the shortest walk.

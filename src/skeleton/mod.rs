@@ -1,4 +1,4 @@
-//! The initial coarse quad mesh (GEOMETRY §1): from the medial axis of the domain, or as the config gives it.
+//! The initial coarse quad mesh (docs/reference/geometry.md §1.3): from the medial axis of the domain, or as the config gives it.
 //!
 //! The skeleton decomposition follows Oval, Rippmann, Mesnil, Van Mele, Baverel, Block (2019), *Feature-based topology finding of
 //! patterns for shell structures*: points along the boundary are triangulated (Delaunay); triangles with three neighbours are the

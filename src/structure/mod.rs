@@ -1,4 +1,4 @@
-//! The in-house linear-elastic frame solver (STRUCTURE). It knows nodes and members, not strips.
+//! The in-house linear-elastic frame solver (docs/reference/structure.md). It knows nodes and members, not strips.
 //!
 //! ```text
 //! FrameModel → System (numbering, symbolic factor) → Solver (assembled, factorised) → first / second order, buckling

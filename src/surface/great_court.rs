@@ -1,5 +1,5 @@
 //! The roof of the British Museum's Great Court (Williams 2001, *The analytic and numerical definition of the geometry of the
-//! British Museum Great Court Roof*; GEOMETRY §4).
+//! British Museum Great Court Roof*; docs/reference/geometry.md §4).
 
 use super::algebra::Algebra;
 use super::dual::Dual;
@@ -198,7 +198,7 @@ mod tests {
     use super::*;
     use crate::surface::{HeightSurface, Surface};
 
-    /// The table of GEOMETRY §4.
+    /// The table of docs/reference/geometry.md §4.
     const TABLE: [(f64, f64, f64); 8] = [
         (30.0, 20.0, 23.636645776870374),
         (-30.0, 20.0, 23.636645776870374),
@@ -242,7 +242,7 @@ mod tests {
         assert!(GreatCourt.gradient(B, C).iter().all(|g| g.is_finite()));
     }
 
-    /// The formula as it stands in GEOMETRY §4, term by term.
+    /// The formula as it stands in docs/reference/geometry.md §4, term by term.
     fn as_printed(x: f64, y: f64) -> f64 {
         let r = x.hypot(y);
         let (a, b, c, d) = (A, B, C, D);

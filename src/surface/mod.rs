@@ -1,4 +1,4 @@
-//! What vertices are held on (GEOMETRY §1): one surface a file, [`build`] makes them from the config.
+//! What vertices are held on (docs/reference/geometry.md §1.2): one surface a file, [`build`] makes them from the config.
 
 mod algebra;
 mod cylinder;
@@ -32,7 +32,7 @@ use crate::io::Inputs;
 use quadric::{Quadric, Shape};
 use std::sync::Arc;
 
-/// How a surface takes a point back (GEOMETRY §1).
+/// How a surface takes a point back (docs/reference/geometry.md §1.2).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum SurfaceKind {
     /// z = f(x, y): vertically, x and y are kept.

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum SurfaceParams {
-    /// The British Museum's Great Court roof (Williams 2001; GEOMETRY §4).
+    /// The British Museum's Great Court roof (Williams 2001; docs/reference/geometry.md §4).
     GreatCourt {},
     /// The horizontal plane z = `z_m`.
     Plane {

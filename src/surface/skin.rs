@@ -6,7 +6,7 @@ use super::triangle::{Triangle, angle_at, dot, is_steep, is_vertical, overlap, s
 
 /// Nearer than this share of the size, a point is on an edge or in a corner.
 const EDGE: f64 = 1e-9;
-/// Exporters round to millimetres (ECOSYSTEM §3b): nearer than this share of the size, faces touch, and layers are one.
+/// Exporters round to millimetres (docs/reference/files.md §4): nearer than this share of the size, faces touch, and layers are one.
 const ROUNDING: f64 = 1e-4;
 
 /// Times the rounding that layers must be apart, so that a slit in the upper one is told from a bend.

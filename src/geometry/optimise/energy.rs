@@ -1,4 +1,4 @@
-//! The energy of a pattern that can be built, and its gradient by position (PATTERN §3).
+//! The energy of a pattern that can be built, and its gradient by position (docs/reference/geometry.md §6.2).
 
 use super::net::{Link, Net, Places};
 use crate::geometry::vector::{Vec3, cross, dot, sub};

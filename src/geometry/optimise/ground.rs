@@ -1,5 +1,5 @@
 //! Surface and boundary in the optimiser's own units: lengths divided by the target length, about the middle of the domain, so that
-//! neither the scale nor the place of a domain decides anything (PATTERN §3).
+//! neither the scale nor the place of a domain decides anything (docs/reference/geometry.md §6).
 
 use crate::domain::{BoundaryLoop, Domain};
 use crate::geometry::vector::{Vec3, scale, sub};

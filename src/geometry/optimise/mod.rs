@@ -1,5 +1,5 @@
-//! Geometry and density chosen together (PATTERN §3): an energy of angles and lengths with barriers at the limits of a pattern that can
-//! be built, minimised on coarse patterns whose densities follow their shape, then on the pattern itself.
+//! Geometry and density chosen together (docs/reference/geometry.md §6): an energy of angles and lengths with barriers at the limits of a
+//! pattern that can be built, minimised on coarse patterns whose densities follow their shape, then on the pattern itself.
 //!
 //! ```text
 //! placed (N/4) → [coarse descent → lengths → rows]³ → pattern (N) → Q1, Q2, Q3 until the limits hold → other rows

@@ -1,5 +1,5 @@
 //! A dense mesh with its unknowns: two (on a surface reached by closest point, three) coordinates for each inner vertex, an arc length
-//! for each boundary vertex that takes no corner (PATTERN §3).
+//! for each boundary vertex that takes no corner (docs/reference/geometry.md §6.3).
 
 use super::ground::{Foot, Ground};
 use super::sheet::{NO_CORNER, Sheet, State};

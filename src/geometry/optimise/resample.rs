@@ -1,4 +1,4 @@
-//! The same coarse mesh at other densities: positions carried over face by face (PATTERN §3).
+//! The same coarse mesh at other densities: positions carried over face by face (docs/reference/geometry.md §6.7).
 
 use super::ground::Ground;
 use super::sheet::{Held, NO_CORNER, Sheet};

@@ -1,4 +1,4 @@
-//! What the rows of a sheet's strips are measured by and bound to (PATTERN §2).
+//! What the rows of a sheet's strips are measured by and bound to (docs/reference/geometry.md §2.2).
 
 use super::Task;
 use super::ground::{Ground, Rail};

@@ -1,5 +1,5 @@
 //! One hole: two harmonic functions, u from the hole to the outer wall and θ around it, and the rays between the two
-//! curves (GEOMETRY §2.1).
+//! curves (docs/reference/geometry.md §2.1).
 
 use super::polar::Polar;
 use super::{Shape, centroid};

@@ -1,5 +1,5 @@
 //! How far a hole without corners is turned, where several holes leave no chart that tells: every such hole is filled with a
-//! hub vertex, the mesh laid flat in the outer loop (Tutte 1963), and each hole turned as it lies there (GEOMETRY §2.1).
+//! hub vertex, the mesh laid flat in the outer loop (Tutte 1963), and each hole turned as it lies there (docs/reference/geometry.md §2.1).
 
 use super::centroid;
 use super::polar::Polar;

@@ -1,4 +1,4 @@
-//! First positions of the dense mesh, by direct linear solves (GEOMETRY §2.1).
+//! First positions of the dense mesh, by direct linear solves (docs/reference/geometry.md §2.1).
 
 mod annulus;
 mod hubs;

@@ -1,4 +1,4 @@
-//! A decoded string for other programs and for people: JSON, OBJ, SVG, text (RUN, `decode`).
+//! A decoded string for other programs and for people: JSON, OBJ, SVG, text (docs/reference/files.md §3.2).
 
 mod json;
 mod layout;

@@ -105,9 +105,9 @@ pub struct Mesh {
     pub edges: Vec<[u32; 2]>,
     /// Vertices that are singular in the coarse mesh and worth a mark.
     pub singular: Vec<Singular>,
-    /// Curvature of each panel (GEOMETRY §3); `None` for triangles. Empty: not known.
+    /// Curvature of each panel (docs/reference/geometry.md §3); `None` for triangles. Empty: not known.
     pub curvature: Vec<Option<f64>>,
-    /// Skewness of each panel (GEOMETRY §3); `None` for triangles. Empty: not known.
+    /// Skewness of each panel (docs/reference/geometry.md §3); `None` for triangles. Empty: not known.
     pub skewness: Vec<Option<f64>>,
     /// Utilisation of each member, in the order of `edges`. Empty: not known.
     pub utilisation: Vec<Option<f64>>,

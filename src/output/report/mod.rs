@@ -1,4 +1,4 @@
-//! `report.html`: one self-contained page that shows a front, its designs and how they were found (RUN "Results folder").
+//! `report.html`: one self-contained page that shows a front, its designs and how they were found (docs/reference/files.md §1).
 //!
 //! [`render`] turns plain [`ReportData`] into the page: same data, same bytes. The page's own scripts and style are in
 //! `assets/report/`, the libraries in `assets/vendor/`; all are embedded, and its content security policy forbids the network.

@@ -1,4 +1,4 @@
-//! How new strings are made from old ones (RUN "Operators").
+//! How new strings are made from old ones (docs/reference/search.md §2).
 
 mod append_deletion;
 mod append_strip;

@@ -65,7 +65,7 @@ pub struct RequirementResult {
 }
 
 impl RequirementResult {
-    /// max(0, value/limit − 1) for an upper limit, max(0, 1 − value/limit) for a lower one (RUN, "Failures are data").
+    /// max(0, value/limit − 1) for an upper limit, max(0, 1 − value/limit) for a lower one (docs/reference/search.md §1.2).
     pub fn excess(&self) -> f64 {
         let ratio = self.value / self.limit;
         if self.upper { (ratio - 1.0).max(0.0) } else { (1.0 - ratio).max(0.0) }

@@ -1,4 +1,4 @@
-//! Areas and normals of panels (GEOMETRY §3): true area, plan projection, each corner's share.
+//! Areas and normals of panels (docs/reference/geometry.md §3): true area, plan projection, each corner's share.
 
 use crate::geometry::pattern::Pattern;
 use nalgebra::Vector3;
