@@ -75,7 +75,7 @@ fn designs_that_left_the_front_are_removed() {
     assert_eq!(run(folder.path(), &["--resume", "--generations", "5"]).0, Some(0));
     let pareto = fs::read_to_string(folder.path().join("r/pareto.csv")).unwrap();
     let history = fs::read_to_string(folder.path().join("r/history.csv")).unwrap();
-    let baseline = history.lines().find(|line| line.split(',').nth(1) == Some("")).unwrap();
+    let baseline = history.lines().find(|line| line.split(',').nth(1) == Some("\"\"")).unwrap();
     let ids: Vec<&str> =
         pareto.lines().skip(1).chain([baseline]).map(|l| l.split(',').next().unwrap()).collect();
     let after = everything(&folder.path().join("r/designs"));
