@@ -76,8 +76,14 @@ impl Cache {
                     continue;
                 };
                 let violation = Violation { stage, measure };
-                let evaluation =
-                    Evaluation { violation, reason: String::new(), objectives: vec![], metrics, structural };
+                let evaluation = Evaluation {
+                    violation,
+                    reason: String::new(),
+                    objectives: vec![],
+                    metrics,
+                    governing: vec![],
+                    structural,
+                };
                 known.insert(Code(u128::from_str_radix(&code, 16)?), evaluation);
             }
             eprintln!("{} evaluations from {}", known.len(), path.display());

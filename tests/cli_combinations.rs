@@ -59,7 +59,7 @@ fn a_combination_that_no_requirement_names_is_warned_of_by_check_and_run() {
 #[test]
 fn tables_say_which_combination_governs_whatever_the_order() {
     let folder = tempfile::tempdir().unwrap();
-    let mut asked = vec![
+    let mut asked = [
         requirement("deflection", "sls", "max = 1.0"),
         requirement("utilisation", "uls", "max = 9.0"),
         requirement("utilisation", "storm", "max = 9.0"),

@@ -12,7 +12,8 @@ use std::process::ExitCode;
 
 /// Analyse any 3D frame: displacements, reactions, member forces, buckling factors, utilisation.
 ///
-/// The model is JSON in SI units (m, N, Pa, kg); docs/frame.md tells what each key means, and what is printed:
+/// The model is JSON in SI units (m, N, Pa, kg); docs/frame.md tells what each key means, and what
+/// is printed:
 ///
 /// { "material": {"E", "G", "density", "fy"},
 ///   "section": {"kind": "box", "width", "height", "thickness"} or {"kind": "round", "diameter"}
@@ -24,10 +25,10 @@ use std::process::ExitCode;
 ///     "member_uniform": [{"member", "force_per_length"} …], "gravity": g},
 ///   "shear_deformation": true or false, "analysis": {"order": 1 or 2, "buckling_modes": n} }
 ///
-/// Nodes and members are counted from 0. `name`, `description`, `source`, `expected`, `tolerance` and `verification` are
-/// for people; any other key is an error. A mechanism or a structure past its critical load is named, by node and
-/// direction, with exit code 1; a wrong model ends with 2. The geometric stiffness is that of axial force:
-/// lateral-torsional buckling is not found.
+/// Nodes and members are counted from 0. `name`, `description`, `source`, `expected`, `tolerance`
+/// and `verification` are for people; any other key is an error. A mechanism or a structure past its
+/// critical load is named, by node and direction, with exit code 1; a wrong model ends with 2. The
+/// geometric stiffness is that of axial force: lateral-torsional buckling is not found.
 #[derive(clap::Args)]
 #[command(verbatim_doc_comment)]
 pub struct Args {

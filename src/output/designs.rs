@@ -191,13 +191,16 @@ pub(super) mod tests {
 
     #[test]
     fn pareto_is_sorted_and_has_the_promised_columns() {
-        let (a, b) = (row(1, "ATA", &[2.0, 0.5], Violation::NONE), row(2, "", &[1.5, 1.0], Violation::NONE));
+        let (mut a, b) =
+            (row(1, "ATA", &[2.0, 0.5], Violation::NONE), row(2, "", &[1.5, 1.0], Violation::NONE));
+        a.governing = ["sls", "uls", ""].map(Box::from).into();
         let text = String::from_utf8(pareto(&[&a, &b], &columns()).to_csv()).unwrap();
         assert_eq!(
             text,
-            "id,string,expressed,code,generation,feasible,mass_kg,curvature,buckling_factor\n\
-             q000000000000,\"\",\"\",q0000000000000002,3,true,1.5,1,\n\
-             q000000000000,ATA,ATA,q0000000000000001,3,true,2,0.5,\n"
+            "id,string,expressed,code,generation,feasible,mass_kg,curvature,buckling_factor,\
+             deflection_combination,utilisation_combination,buckling_combination\n\
+             000000000000,,,0000000000000002,3,true,1.5,1,,,,\n\
+             000000000000,ATA,ATA,0000000000000001,3,true,2,0.5,,sls,uls,\n"
         );
     }
 
@@ -210,8 +213,10 @@ pub(super) mod tests {
         let line = text.lines().nth(1).unwrap();
         assert_eq!(
             line,
-            "qabc000000000,A*,A*,qabc0000000000000,3,false,1000000,0.125,,1,0.25,\"too weak, \"\"badly\"\"\""
+            "qabc000000000,A*,A*,qabc0000000000000,3,false,1000000,0.125,,,,,1,0.25,\"too weak, \"\"badly\"\"\""
         );
-        assert!(text.lines().next().unwrap().ends_with("buckling_factor,violation_stage,violation,reason"));
+        assert!(
+            text.lines().next().unwrap().ends_with("buckling_combination,violation_stage,violation,reason")
+        );
     }
 }

@@ -37,7 +37,7 @@ const LEAST_STEP: LeastStep = LeastStep(1.0 / 4096.0);
 pub const NAMING: f64 = 1e-4;
 
 /// Out of balance by more than this share of the largest force, an answer is none.
-const BALANCE: f64 = 1e-7;
+const BALANCE: f64 = 1e-6;
 
 /// The answer. Lists follow the model's order.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 //! Found by an eigenvalue iteration, and then *counted*: K is positive definite, so that K + s Kg has as many negative
 //! pivots as there are factors between 0 and s (Sylvester's law of inertia; Sturm sequence). What an iteration has
 //! missed, be it the seventh of seven equal columns or the heaviest of many nearly equal ones, shows in that count; the
-//! factors are then found by counting alone ([`sturm`]), as often as they are repeated.
+//! factors are then found by counting alone (`sturm`), as often as they are repeated.
 
 mod dense;
 mod lanczos;
