@@ -199,8 +199,8 @@ pub(super) mod tests {
             text,
             "id,string,expressed,code,generation,feasible,mass_kg,curvature,buckling_factor,\
              deflection_combination,utilisation_combination,buckling_combination\n\
-             000000000000,,,0000000000000002,3,true,1.5,1,,,,\n\
-             000000000000,ATA,ATA,0000000000000001,3,true,2,0.5,,sls,uls,\n"
+             q000000000000,\"\",\"\",q0000000000000002,3,true,1.5,1,,,,\n\
+             q000000000000,ATA,ATA,q0000000000000001,3,true,2,0.5,,sls,uls,\n"
         );
     }
 
