@@ -1,11 +1,13 @@
 //! Topology only: coarse quad meshes without coordinates (GRAMMAR §1).
 
+pub mod automorphism;
 pub mod base;
 pub mod base_json;
 pub mod canonical;
 pub mod code;
 pub mod contract;
 pub mod distance;
+pub mod fold;
 pub mod ids;
 pub mod isomorphism;
 pub mod load;
