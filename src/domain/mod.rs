@@ -20,7 +20,7 @@ use crate::surface::Surface;
 use curve::Curve;
 use std::f64::consts::PI;
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// How fine the patterns on a domain are to be: what is short on its boundary is short against them.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -55,6 +55,8 @@ pub struct Domain {
     mark: f64,
     /// Area of the surface within the boundary, m².
     surface_area: f64,
+    /// What [`Domain::own_symmetries`] found, once it was asked for.
+    own_symmetries: OnceLock<Vec<(Symmetry, crate::mesh::Symmetry)>>,
 }
 
 impl Domain {
@@ -117,7 +119,7 @@ impl Domain {
             .map(|(curve, corners)| BoundaryLoop::new(curve, surface, corners, way))
             .collect();
         let plan_loops = loops.iter().map(BoundaryLoop::in_plan).collect();
-        Ok(Self { loops, plan_loops, mark, surface_area })
+        Ok(Self { loops, plan_loops, mark, surface_area, own_symmetries: OnceLock::new() })
     }
 
     /// Corners of all loops together.

@@ -16,6 +16,7 @@ pub mod density;
 mod develop;
 pub mod deviation;
 pub mod force_density;
+pub mod images;
 pub mod laplacian;
 pub mod limits;
 pub mod metrics;
@@ -31,6 +32,7 @@ pub mod topology;
 pub mod untangle;
 pub mod vector;
 
+pub use images::Image;
 pub use develop::{Shaped, develop, shape, topological_rejection};
 pub use params::{PatternParams, TopologyParams};
 pub use pattern::{Panel, Pattern};

@@ -22,7 +22,7 @@ impl Shape {
         let faces = mesh.face_darts().into_iter();
         let faces = faces.map(|first| mesh.along(first).map(|d| mesh.origin(d).0).collect()).collect();
         let outside = mesh.darts().filter(|&d| mesh.is_outside(d));
-        let walls = outside.map(|d| (mesh.origin(d).0, mesh.end(d).0, mesh.left(d))).collect();
+        let walls = outside.map(|d| (mesh.origin(d).0, mesh.end(d).0, mesh.left(d)));
         let marks = mesh.marks().iter().filter(|mark| (mark.corner as usize) < corner_count);
         let marks = marks.map(|mark| (mark.corner, mark.vertex.0));
         Self::new(mesh.vertex_count(), faces, walls, marks)
@@ -31,19 +31,26 @@ impl Shape {
     /// Of a canonical mesh, with all its corners.
     pub fn of_canonical(mesh: &CanonicalMesh) -> Self {
         let distinct = |face: &[u32; 4]| face[usize::from(face[0] == face[1])..].to_vec();
-        let walls = mesh.loops.iter().zip(0..).flat_map(|(vertices, label)| {
-            let next = vertices.iter().cycle().skip(1);
-            vertices.iter().zip(next).map(move |(&u, &v)| (u, v, Left::outside(label)))
-        });
         let marks = mesh.corners.iter().zip(0..);
         let marks = marks.flat_map(|(carriers, k)| carriers.iter().map(move |&v| (k, v)));
-        Self::new(mesh.vertex_count, mesh.faces.iter().map(distinct).collect(), walls.collect(), marks)
+        Self::new(mesh.vertex_count, mesh.faces.iter().map(distinct).collect(), around(&mesh.loops), marks)
+    }
+
+    /// Of a dense mesh, its loops in either direction; its first `corner_count` vertices are corners of the same number.
+    pub fn of_panels<'a>(
+        vertex_count: usize,
+        panels: impl Iterator<Item = &'a [u32]>,
+        loops: &[Vec<u32>],
+        corner_count: usize,
+    ) -> Self {
+        let marks = (0..corner_count as u32).map(|v| (v, v));
+        Self::new(vertex_count, panels.map(<[u32]>::to_vec).collect(), around(loops), marks)
     }
 
     fn new(
         vertex_count: usize,
         faces: Vec<Vec<u32>>,
-        mut walls: Vec<(u32, u32, Left)>,
+        walls: impl Iterator<Item = (u32, u32, Left)>,
         marks: impl Iterator<Item = (u32, u32)>,
     ) -> Self {
         let mut darts = Vec::with_capacity(4 * faces.len());
@@ -52,13 +59,18 @@ impl Shape {
             darts.extend((0..n).map(|i| (face[i], face[(i + 1) % n], f, i as u32)));
         }
         darts.sort_unstable();
-        walls.sort_unstable();
         let mut corners = vec![Vec::new(); vertex_count];
         for (corner, vertex) in marks {
             corners[vertex as usize].push(corner);
         }
         corners.iter_mut().for_each(|numbers: &mut Vec<u32>| numbers.sort_unstable());
-        Self { faces, darts, walls, corners }
+        let mut shape = Self { faces, darts, walls: Vec::new(), corners };
+        // A face lies on the right of an outside dart.
+        let turned = |(u, v, left)| if shape.dart(u, v).is_some() { (v, u, left) } else { (u, v, left) };
+        let mut walls: Vec<_> = walls.map(turned).collect();
+        walls.sort_unstable();
+        shape.walls = walls;
+        shape
     }
 
     /// The map of the vertices that does to loops and corners what `symmetry` does to those of the domain. At most one on a mesh with
@@ -144,6 +156,14 @@ impl Shape {
                 self.walls.binary_search(&(image.0, image.1, symmetry.left(left))).is_ok()
             })
     }
+}
+
+/// The edges of loops, by label.
+fn around(loops: &[Vec<u32>]) -> impl Iterator<Item = (u32, u32, Left)> + '_ {
+    loops.iter().zip(0..).flat_map(|(vertices, label)| {
+        let next = vertices.iter().cycle().skip(1);
+        vertices.iter().zip(next).map(move |(&u, &v)| (u, v, Left::outside(label)))
+    })
 }
 
 #[cfg(test)]

@@ -15,6 +15,7 @@ pub mod quad_mesh;
 pub mod reduce;
 pub mod strips;
 pub mod subdivide;
+pub mod symmetries;
 pub mod unzip;
 pub mod validate;
 
@@ -25,3 +26,4 @@ pub use ids::{DartId, FaceId, StripId, VertexId};
 pub use isomorphism::{Equivalence, Symmetry, canonical_mesh, canonical_mesh_under};
 pub use load::{BaseMeshError, InitialMesh};
 pub use quad_mesh::QuadMesh;
+pub use symmetries::Symmetries;

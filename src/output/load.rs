@@ -5,6 +5,7 @@ use super::folder::{self, CHECKPOINT, EVALUATION, GENERATIONS, HISTORY, MANIFEST
 use super::manifest::Manifest;
 use crate::config::Config;
 use crate::evolve::Violation;
+use crate::mesh::Symmetries;
 use crate::mesh::canonical::Code;
 use crate::search::{Breeding, EvaluatedRow, GenerationRow};
 use std::cell::Cell;
@@ -190,7 +191,7 @@ impl<'a> Record<'a> {
 
 /// The evaluation that a line of `history.csv` or `pareto.csv` tells.
 pub(super) fn row(record: Record<'_>, columns: &Columns) -> Result<EvaluatedRow, LoadError> {
-    let [_, string, expressed, code, generation, _] = FIRST;
+    let [_, string, expressed, code, symmetry, generation, _] = FIRST;
     let [stage, measure, reason] = LAST;
     let bits = u64::from_str_radix(digits(record.text(code)?), 16).map_err(|_| {
         record.wrong(format!(
@@ -210,6 +211,11 @@ pub(super) fn row(record: Record<'_>, columns: &Columns) -> Result<EvaluatedRow,
         tokens: record.parse(string)?,
         expressed: record.parse(expressed)?,
         code: Code(u128::from(bits) << 64),
+        // Results of before have no such column.
+        symmetries: match record.sheet.columns.contains_key(symmetry) {
+            true => record.parse(symmetry)?,
+            false => Symmetries::default(),
+        },
         violation,
         reason: if in_history { record.text(reason)?.into() } else { "".into() },
         objectives: objectives.into_iter().collect::<Option<Vec<f64>>>().unwrap_or_default().into(),

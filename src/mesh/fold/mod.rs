@@ -87,12 +87,17 @@ pub struct Folded {
 }
 
 impl Folded {
+    /// A mesh that is not folded.
+    pub fn whole(initial: InitialMesh) -> Self {
+        Self { part: initial, folds: Vec::new() }
+    }
+
     /// Folds a mesh along each of the mirrors.
     ///
     /// # Errors
     /// Where the mesh is not symmetric, or what the axis crosses.
     pub fn new(initial: &InitialMesh, mirrors: &[Mirror]) -> Result<Self, FoldError> {
-        let mut folded = Self { part: initial.clone(), folds: Vec::new() };
+        let mut folded = Self::whole(initial.clone());
         let domain_corners = initial.mesh.corner_count();
         for (mirror, number) in mirrors.iter().zip(0..) {
             let (part, fold) = cut::cut(&folded.part, number, mirror, domain_corners)?;
