@@ -4,8 +4,8 @@
 //! designer's commands with whole [`Design`]s.
 
 mod remarks;
-mod symmetry;
 mod supports;
+mod symmetry;
 
 use crate::config::Config;
 use crate::domain::{self, Domain, DomainError};
@@ -18,7 +18,7 @@ use crate::grammar::{self, Decoded, Rules, Tokens};
 use crate::mesh::distance::deletions;
 use crate::mesh::fold::{FoldError, Folded};
 use crate::mesh::isomorphism::{Equivalence, Symmetry, canonical_mesh_under};
-use crate::mesh::{BaseMeshError, CanonicalMesh, Code, InitialMesh, QuadMesh};
+use crate::mesh::{BaseMesh, BaseMeshError, CanonicalMesh, Code, InitialMesh, QuadMesh};
 use crate::objectives::{self, AnalysedDesign, METRICS, Metric};
 use crate::random::Rng;
 use crate::search::operators::{Growth, Reach};
@@ -144,7 +144,9 @@ impl StudyError {
             Self::SupportPoint { key, .. } => key.clone(),
             Self::Initial(error) => error.key(&config.topology),
             Self::Mesh(_) => "topology.initial".to_owned(),
-            Self::NoMirror { .. } | Self::MirrorTwice { .. } | Self::Fold(_) => "topology.symmetry".to_owned(),
+            Self::NoMirror { .. } | Self::MirrorTwice { .. } | Self::Fold(_) => {
+                "topology.symmetry".to_owned()
+            }
         }
     }
 }
@@ -404,14 +406,27 @@ impl Study {
     }
 }
 
-/// The initial mesh of the config with its marks: not sharp where the domain has no corners (GEOMETRY §0.4).
+/// The initial mesh of the config.
 fn initial_mesh(config: &Config, domain: &Domain, base_dir: &Path) -> Result<InitialMesh, StudyError> {
-    let base = skeleton::initial(&config.topology, domain, base_dir)?;
-    let mut initial = InitialMesh::from_base(&base)?;
+    marked(&skeleton::initial(&config.topology, domain, base_dir)?, domain)
+}
+
+/// A base mesh with its marks: not sharp where the domain has no corners (GEOMETRY §0.4).
+fn marked(base: &BaseMesh, domain: &Domain) -> Result<InitialMesh, StudyError> {
+    let mut initial = InitialMesh::from_base(base)?;
     if domain.mark().is_some() {
         initial.mesh.blunt(0);
     }
     Ok(initial)
+}
+
+/// The initial mesh of a config as it is folded along the mirrors that patterns are to have: where strings start.
+///
+/// # Errors
+/// A symmetry that domain or mesh do not have.
+pub fn start(config: &Config, domain: &Domain, base: &BaseMesh) -> Result<Folded, StudyError> {
+    let kinds: Vec<domain::Symmetry> = config.topology.symmetry.iter().map(|mirror| mirror.kind()).collect();
+    Ok(Folded::new(&marked(base, domain)?, &symmetry::mirrors(domain, &kinds)?)?)
 }
 
 impl Design {

@@ -57,7 +57,7 @@ fn writes_everything_and_nothing_twice() {
     }
     assert_eq!(&read(&folder, "pareto.excel-eu.csv")[..3], b"\xEF\xBB\xBF");
     let header = text(&read(&folder, "pareto.csv")).lines().next().unwrap().to_owned();
-    let start = "id,string,expressed,code,generation,feasible,deflection_m,curvature,edge_spread_m,";
+    let start = "id,string,expressed,code,symmetry,generation,feasible,deflection_m,curvature,edge_spread_m,";
     assert!(header.starts_with(start), "{header}");
     let history = text(&read(&folder, "history.csv"));
     assert!(history.lines().next().unwrap().ends_with(",violation_stage,violation,reason"));

@@ -42,7 +42,8 @@ impl Image {
         // Every coarse vertex, which keeps its number, is a corner to this.
         let Symmetry { loops: labels, reversed, .. } = self.symmetry.clone();
         let symmetry = Symmetry { loops: labels, corners: self.vertices.clone(), reversed };
-        Shape::of_panels(vertex_count, panels.iter().map(Panel::corners), loops, self.vertices.len()).find(&symmetry)
+        Shape::of_panels(vertex_count, panels.iter().map(Panel::corners), loops, self.vertices.len())
+            .find(&symmetry)
     }
 }
 
@@ -120,7 +121,8 @@ pub fn even_out(pattern: &mut Pattern, images: &[Image], domain: &Domain, surfac
             let q = domain.image(p, kind);
             middle(p, q)
         });
-        let decided = if on_axis == given || is_on_boundary(pattern, v) { on_axis } else { surface.project(on_axis) };
+        let decided =
+            if on_axis == given || is_on_boundary(pattern, v) { on_axis } else { surface.project(on_axis) };
         pattern.positions[v] = decided;
         is_done[v] = true;
         for (kind, map) in &maps {

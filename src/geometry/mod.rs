@@ -32,8 +32,8 @@ pub mod topology;
 pub mod untangle;
 pub mod vector;
 
-pub use images::Image;
 pub use develop::{Shaped, develop, shape, topological_rejection};
+pub use images::Image;
 pub use params::{PatternParams, TopologyParams};
 pub use pattern::{Panel, Pattern};
 pub use rejection::Rejection;

@@ -124,7 +124,11 @@ impl fmt::Display for Rejection {
                 write!(f, "flat: {} faces, {} edges in a straight wall", faces.len(), edges.len())
             }
             Self::Pinched { vertices } => {
-                write!(f, "pinched: {} vertices with one panel on the boundary or beside an axis", vertices.len())
+                write!(
+                    f,
+                    "pinched: {} vertices with one panel on the boundary or beside an axis",
+                    vertices.len()
+                )
             }
             Self::NotSymmetric { symmetry } => {
                 write!(f, "not symmetric: without parallel strips it does not have {symmetry}")

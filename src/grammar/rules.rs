@@ -70,8 +70,13 @@ impl Rules {
 /// # Errors
 /// [`Skip::CornersMerged`].
 pub fn keep_seams(before: &QuadMesh, after: &QuadMesh) -> Result<(), Skip> {
-    let seam_ends = |mesh: &QuadMesh| mesh.darts().filter(|&d| mesh.is_outside(d) && mesh.is_seam_end(d)).count();
-    if before.is_folded() && seam_ends(before) != seam_ends(after) { Err(Skip::CornersMerged) } else { Ok(()) }
+    let seam_ends =
+        |mesh: &QuadMesh| mesh.darts().filter(|&d| mesh.is_outside(d) && mesh.is_seam_end(d)).count();
+    if before.is_folded() && seam_ends(before) != seam_ends(after) {
+        Err(Skip::CornersMerged)
+    } else {
+        Ok(())
+    }
 }
 
 /// Number of *flat* faces: all vertices of the face lie on one side of the domain, or all but one of its edges (or

@@ -83,7 +83,8 @@ impl Shape {
     pub fn all<'a>(&'a self, symmetry: &'a Symmetry) -> impl Iterator<Item = Vec<u32>> + 'a {
         // From the vertex with the most corners there are the fewest ways to begin.
         let root = self.walls.iter().max_by_key(|(u, ..)| self.corners[*u as usize].len()).copied();
-        root.into_iter().flat_map(move |root| self.walls.iter().filter_map(move |&at| self.extend(symmetry, root, at)))
+        root.into_iter()
+            .flat_map(move |root| self.walls.iter().filter_map(move |&at| self.extend(symmetry, root, at)))
     }
 
     /// The map that takes the outside dart `root` to the outside dart `image`.
@@ -147,7 +148,8 @@ impl Shape {
     /// Whether a map of vertices is one-to-one and keeps corners and loops.
     fn is_kept(&self, symmetry: &Symmetry, map: &[u32]) -> bool {
         let mut taken = vec![false; map.len()];
-        let is_new = |&v: &u32| taken.get_mut(v as usize).is_some_and(|taken| !std::mem::replace(taken, true));
+        let is_new =
+            |&v: &u32| taken.get_mut(v as usize).is_some_and(|taken| !std::mem::replace(taken, true));
         map.iter().all(is_new)
             && map.iter().zip(0..).all(|(&image, v)| self.corners_fit(symmetry, v, image))
             && self.walls.iter().all(|&(u, v, left)| {

@@ -238,7 +238,8 @@ impl Zipper<'_> {
     fn settle(&mut self, d: DartId) -> VertexId {
         let mesh = &mut *self.mesh;
         let (before, after) = (mesh.left(mesh.prev(d)), mesh.left(mesh.next(d)));
-        let is_before = before != after && self.arrival.is_some_and(|arrival| arrival.is_before(before, after));
+        let is_before =
+            before != after && self.arrival.is_some_and(|arrival| arrival.is_before(before, after));
         mesh.at(d).left = if is_before { before } else { after };
         if is_before { mesh.end(d) } else { mesh.origin(d) }
     }

@@ -165,6 +165,10 @@ impl<'a> Record<'a> {
         LoadError::Format { path: self.sheet.path.clone(), message: format!("line {}: {message}", self.line) }
     }
 
+    pub(super) fn has(&self, column: &str) -> bool {
+        self.sheet.columns.contains_key(column)
+    }
+
     pub(super) fn text(&self, column: &str) -> Result<&'a str, LoadError> {
         let missing = || self.wrong(format!("column {column} is missing"));
         let index = self.sheet.columns.get(column).ok_or_else(missing)?;
@@ -212,7 +216,7 @@ pub(super) fn row(record: Record<'_>, columns: &Columns) -> Result<EvaluatedRow,
         expressed: record.parse(expressed)?,
         code: Code(u128::from(bits) << 64),
         // Results of before have no such column.
-        symmetries: match record.sheet.columns.contains_key(symmetry) {
+        symmetries: match record.has(symmetry) {
             true => record.parse(symmetry)?,
             false => Symmetries::default(),
         },

@@ -45,7 +45,6 @@ impl Study {
         let unsymmetric = asked.and_then(|images| {
             images::rejection(topology, &images, &self.mirrors, self.pinched == Pinched::Allow)
         });
-        unsymmetric
-            .or_else(|| geometry::topological_rejection(topology, &self.domain, self.pinched, limits))
+        unsymmetric.or_else(|| geometry::topological_rejection(topology, &self.domain, self.pinched, limits))
     }
 }

@@ -194,7 +194,8 @@ impl<'a> Net<'a> {
         for (i, slider) in self.sliders.iter().enumerate() {
             let at = self.inner_unknowns + i;
             let image = |twin: &Twin| {
-                let Freedom::Slider(there) = self.freedom[twin.vertices[slider.vertex as usize] as usize] else {
+                let Freedom::Slider(there) = self.freedom[twin.vertices[slider.vertex as usize] as usize]
+                else {
                     return given[at];
                 };
                 // Of the image's plan length q the one here that it is the image of is c ± q again: twins are their own inverse.

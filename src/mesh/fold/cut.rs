@@ -134,7 +134,8 @@ impl Halves<'_> {
             corners: corners.map(|c| c.iter().filter_map(|v| number.get(v).copied()).collect()).collect(),
         };
         // A part of a valid mesh is one.
-        let part = InitialMesh::from_base(&base).map_err(|_| FoldError::NoAxis { mirror: self.mirror.name })?;
+        let part =
+            InitialMesh::from_base(&base).map_err(|_| FoldError::NoAxis { mirror: self.mirror.name })?;
         Ok((part, vertices))
     }
 
@@ -142,7 +143,8 @@ impl Halves<'_> {
     fn name_boundary(&self, part: &mut QuadMesh, vertices: &[VertexId], number: u32) {
         let mesh = self.mesh;
         let mut is_there = vec![false; mesh.loop_count()];
-        for d in (0..part.darts.len() as u32).map(DartId).filter(|&d| part.is_outside(d)).collect::<Vec<_>>() {
+        for d in (0..part.darts.len() as u32).map(DartId).filter(|&d| part.is_outside(d)).collect::<Vec<_>>()
+        {
             let (u, v) = (vertices[part.origin(d).index()], vertices[part.end(d).index()]);
             let left = mesh.find_dart(u, v).map(|old| mesh.left(old)).filter(|left| left.is_outside());
             part.at(d).left = left.unwrap_or(Left::seam(number));

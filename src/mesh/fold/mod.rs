@@ -38,7 +38,9 @@ impl Mirror {
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub enum FoldError {
     /// A vertex lies where the reflection has none.
-    #[error("`{mirror}` does not map it to itself: vertex {vertex} at ({x:.3}, {y:.3}) has no image at ({u:.3}, {v:.3})")]
+    #[error(
+        "`{mirror}` does not map it to itself: vertex {vertex} at ({x:.3}, {y:.3}) has no image at ({u:.3}, {v:.3})"
+    )]
     #[expect(missing_docs, reason = "the message says it")]
     Vertex { mirror: &'static str, vertex: usize, x: f64, y: f64, u: f64, v: f64 },
     /// An edge joins vertices whose images are not joined.
@@ -49,7 +51,9 @@ pub enum FoldError {
     #[expect(missing_docs, reason = "the message says it")]
     Edge { mirror: &'static str, edge: [usize; 2], image: [usize; 2] },
     /// Vertices and edges fit, faces, poles, loops or corners do not.
-    #[error("`{mirror}` does not map it to itself: the images of its faces have other poles, or other corners of the domain")]
+    #[error(
+        "`{mirror}` does not map it to itself: the images of its faces have other poles, or other corners of the domain"
+    )]
     #[expect(missing_docs, reason = "the message says it")]
     Marks { mirror: &'static str },
     /// The axis runs through a face from corner to corner.
@@ -110,6 +114,13 @@ impl Folded {
     /// Whether there is any fold.
     pub fn is_folded(&self) -> bool {
         !self.folds.is_empty()
+    }
+
+    /// The edges of the seams of [`Self::part`], each as the places of its ends, m.
+    pub fn seams(&self) -> Vec<[[f64; 3]; 2]> {
+        let mesh = &self.part.mesh;
+        let on_seam = mesh.darts().filter(|&d| mesh.left(d).as_seam().is_some());
+        on_seam.map(|d| [mesh.origin(d), mesh.end(d)].map(|v| mesh.position(v))).collect()
     }
 
     /// The whole mesh of a part that the grammar made of [`Self::part`], and the marker on it.

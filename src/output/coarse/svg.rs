@@ -1,8 +1,8 @@
 //! The coarse mesh drawn: strips coloured, singular vertices with their valence, the marker as an arrow.
 
 use super::Reading;
-use crate::grammar::Decoded;
 use super::layout::layout;
+use crate::grammar::Decoded;
 use crate::mesh::strips::{self, StripChain};
 use crate::mesh::{DartId, QuadMesh};
 use crate::output::number::rounded;
