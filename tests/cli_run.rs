@@ -98,7 +98,7 @@ fn works_on_results(temporary: &Path, id: &str) {
     let path = temporary.join("r/history.csv");
     let history = fs::read_to_string(&path).unwrap();
     let line = history.lines().find(|line| line.starts_with(id)).unwrap();
-    let value = line.split(',').nth(6).unwrap();
+    let value = line.split(',').nth(7).unwrap();
     fs::write(&path, history.replace(value, "0.5")).unwrap();
     let verified = quadrille(temporary, &["verify", "r", "--design", id]);
     assert_eq!(verified.status.code(), Some(1));

@@ -94,7 +94,7 @@ fn check_strings(study: &Study, count: u64) {
     }
     assert!(additions > count as usize / 4 && deletions > count as usize / 20, "{additions} {deletions}");
     assert!(
-        lost * 50 <= count as usize,
+        lost * 20 <= count as usize,
         "{lost} of {count} lose the symmetry when parallel strips are merged"
     );
 }
@@ -151,31 +151,27 @@ fn seam_edges(mesh: &quadrille::mesh::QuadMesh) -> usize {
 }
 
 #[test]
-fn a_strip_that_comes_from_inside_to_the_end_of_a_seam_ends_as_its_token_says() {
+fn a_strip_from_inside_ends_on_the_seam_where_its_token_says_so() {
     let study = court("[\"mirror-x\"]");
-    let start = seam_edges(&study.start.part.mesh);
-    let (mut on_seam, mut on_wall) = (0, 0);
+    let mut found = 0;
     for index in 0..4_000 {
-        let shares = Shares { closed: 0.5, ..Shares::default() };
+        let shares = Shares { closed: 0.6, ..Shares::default() };
         let mut rng = stream(23, 0, index);
-        let tokens = random::aware(&mut rng, 4..=12, &shares, &study.start.part, study.rules);
-        let part = study.decode_part(&tokens);
-        let course = |effect: &Effect| match effect {
-            Effect::Added(added) => Some(added.course),
-            _ => None,
-        };
-        let courses: Vec<_> = part.trace.iter().filter_map(course).collect();
-        if let [Course::Open(ends)] = courses[..]
-            && !part.trace.iter().any(|effect| matches!(effect, Effect::Deleted(_)))
-        {
-            let grown = seam_edges(&part.mesh) - start;
+        let tokens = random::aware(&mut rng, 12..=40, &shares, &study.start.part, study.rules);
+        let seams_after =
+            |count: usize| seam_edges(&study.decode_part(&Tokens(tokens[..count].to_vec())).mesh);
+        for (i, effect) in study.decode_part(&tokens).trace.iter().enumerate() {
+            let Effect::Added(added) = effect else { continue };
+            let Course::Open(ends) = added.course else { continue };
             let told = ends.iter().filter(|&&end| end == End::OnSeam).count();
-            assert!(grown >= told, "{tokens}: {told} ends on seams, {grown} more edges there");
-            on_seam += told;
-            on_wall += usize::from(told == 0 && grown == 0);
+            if told > 0 {
+                let grown = seams_after(i + 1) - seams_after(i);
+                assert!(grown >= told, "{tokens} at {i}: {told} ends on seams, {grown} more edges there");
+                found += told;
+            }
         }
     }
-    assert!(on_seam > 20 && on_wall > 20, "{on_seam} {on_wall}");
+    assert!(found > 10, "{found}");
 }
 
 #[test]

@@ -17,7 +17,7 @@ const COURT: &str = "[[domain.loop]]\nkind = \"polyline\"\n\
 const SQUARE: &str = "[[domain.loop]]\nkind = \"polyline\"\npoints_m = [[-10, -10], [10, -10], [10, 10], [-10, 10]]\n\
     [pattern]\npanels = 200\n";
 
-fn study(text: &str, topology: &str) -> (Study, config::Config) {
+fn study_of(text: &str, topology: &str) -> (Study, config::Config) {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("case.toml");
     std::fs::write(&file, format!("version = 1\n{text}[topology]\n{topology}")).unwrap();
@@ -49,8 +49,8 @@ fn assert_symmetric(pattern: &Pattern, study: &Study, topology: &CanonicalMesh, 
 
 /// Patterns of random strings of a config with mirrors; each is symmetric, and the same as that of a config without.
 fn check(text: &str, topology: &str, mirrors: &str, count: u32) {
-    let (study, config) = study(text, &format!("{topology}symmetry = {mirrors}\n"));
-    let (plain, _) = study(text, topology);
+    let (study, config) = study_of(text, &format!("{topology}symmetry = {mirrors}\n"));
+    let (plain, _) = study_of(text, topology);
     let mut drawn = 0;
     for index in 0..count {
         let shares = Shares { closed: 0.3, ..Shares::default() };

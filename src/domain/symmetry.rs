@@ -78,8 +78,9 @@ impl Domain {
     pub fn image(&self, [x, y, z]: [f64; 3], kind: Kind) -> [f64; 3] {
         let [low, high] = self.bounds();
         let [sx, sy] = kind.signs();
-        let [cx, cy] = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
-        [cx + sx * (x - cx), cy + sy * (y - cy), z]
+        // A coordinate that is kept keeps every bit.
+        let across = |sign: f64, x: f64, k: usize| if sign > 0.0 { x } else { (low[k] + high[k]) - x };
+        [across(sx, x, 0), across(sy, y, 1), z]
     }
 
     fn image_of_loop(&self, loop_number: usize, kind: Kind, tolerance: f64) -> Result<u32, String> {

@@ -4,12 +4,15 @@
 use super::coarse::Coarse;
 use super::pattern::{Panel, Pattern};
 use super::rejection::Rejection;
-use super::vector::Vec3;
+use super::vector::{Vec3, distance};
 use crate::domain::{Domain, Symmetry as Kind};
 use crate::mesh::automorphism::Shape;
 use crate::mesh::isomorphism::Symmetry;
 use crate::mesh::{CanonicalMesh, Symmetries};
 use crate::surface::Surface;
+
+/// Corners may be moved by this share of the domain's size: by rounding, not by more.
+const CORNERS_APART: f64 = 1e-11;
 
 /// A symmetry of the domain that maps a coarse mesh onto itself.
 #[derive(Clone, Debug)]
@@ -23,10 +26,15 @@ pub struct Image {
 }
 
 impl Image {
-    /// All symmetries that domain and mesh have in common, the identity left out; with any two of them their product is there too.
+    /// All symmetries that domain and mesh have in common, the identity left out; with any two of them their product is there too. None
+    /// of a mesh whose vertices do not carry one corner each: of several at one vertex geometry gives it the first, and finds the others
+    /// vertices along the boundary.
     pub fn all(mesh: &CanonicalMesh, domain: &Domain) -> Vec<Self> {
         let symmetries = domain.own_symmetries();
-        if symmetries.is_empty() {
+        let mut carriers: Vec<&[u32]> = mesh.corners.iter().map(Vec::as_slice).collect();
+        carriers.sort_unstable();
+        let are_apart = carriers.windows(2).all(|pair| pair[0] != pair[1]);
+        if symmetries.is_empty() || !are_apart || carriers.iter().any(|vertices| vertices.len() != 1) {
             return Vec::new();
         }
         let shape = Shape::of_canonical(mesh);
@@ -100,7 +108,7 @@ pub fn symmetries(images: &[Image]) -> Symmetries {
 }
 
 /// Makes a pattern that is symmetric but for rounding so to the last bit: of vertices that are images of each other one decides, and
-/// those on an axis are put on it. Corners of the domain stay where they are.
+/// those on an axis are put on it. Corners that are images of each other but for more than rounding stay where they are.
 pub fn even_out(pattern: &mut Pattern, images: &[Image], domain: &Domain, surface: &dyn Surface) {
     let count = pattern.positions.len();
     let maps: Option<Vec<(Kind, Vec<u32>)>> = images
@@ -108,27 +116,36 @@ pub fn even_out(pattern: &mut Pattern, images: &[Image], domain: &Domain, surfac
         .map(|image| Some((image.kind, image.of_dense(count, &pattern.panels, &pattern.loops)?)))
         .collect();
     let Some(maps) = maps.filter(|maps| !maps.is_empty()) else { return };
-    let mut is_done = vec![false; count];
+    let mut is_corner = vec![false; count];
     for &v in &pattern.corners {
-        is_done[v as usize] = true;
+        is_corner[v as usize] = true;
     }
+    let stays =
+        |v: usize, from: Vec3, to: Vec3| is_corner[v] && distance(from, to) > CORNERS_APART * domain.size();
+    let mut is_done = vec![false; count];
     for v in 0..count {
-        if is_done[v] {
+        if std::mem::replace(&mut is_done[v], true) {
             continue;
         }
         let given = pattern.positions[v];
-        let on_axis = maps.iter().filter(|(_, map)| map[v] as usize == v).fold(given, |p, &(kind, _)| {
-            let q = domain.image(p, kind);
-            middle(p, q)
-        });
-        let decided =
-            if on_axis == given || is_on_boundary(pattern, v) { on_axis } else { surface.project(on_axis) };
+        let on_axis = maps
+            .iter()
+            .filter(|(_, map)| map[v] as usize == v)
+            .fold(given, |p, &(kind, _)| middle(p, domain.image(p, kind)));
+        let decided = if stays(v, given, on_axis) {
+            given
+        } else if on_axis == given || is_on_boundary(pattern, v) {
+            on_axis
+        } else {
+            surface.project(on_axis)
+        };
         pattern.positions[v] = decided;
-        is_done[v] = true;
         for (kind, map) in &maps {
             let image = map[v] as usize;
-            if !std::mem::replace(&mut is_done[image], true) {
-                pattern.positions[image] = domain.image(decided, *kind);
+            let place = domain.image(decided, *kind);
+            if !std::mem::replace(&mut is_done[image], true) && !stays(image, pattern.positions[image], place)
+            {
+                pattern.positions[image] = place;
             }
         }
     }
