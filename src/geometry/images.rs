@@ -14,6 +14,10 @@ use crate::surface::Surface;
 /// Corners may be moved by this share of the domain's size: by rounding, not by more.
 const CORNERS_APART: f64 = 1e-11;
 
+/// A pattern with vertices farther than this share of the domain's size from where symmetry has them is left as it is: smoothing, unlike
+/// optimising, can let boundary vertices slide one way at the tip of a slender domain.
+const NEARLY: f64 = 1e-6;
+
 /// A symmetry of the domain that maps a coarse mesh onto itself.
 #[derive(Clone, Debug)]
 pub struct Image {
@@ -116,6 +120,15 @@ pub fn even_out(pattern: &mut Pattern, images: &[Image], domain: &Domain, surfac
         .map(|image| Some((image.kind, image.of_dense(count, &pattern.panels, &pattern.loops)?)))
         .collect();
     let Some(maps) = maps.filter(|maps| !maps.is_empty()) else { return };
+    let is_near_its_image = |(kind, map): &(Kind, Vec<u32>)| {
+        let apart = |v: usize| {
+            distance(pattern.positions[map[v] as usize], domain.image(pattern.positions[v], *kind))
+        };
+        (0..count).all(|v| apart(v) <= NEARLY * domain.size())
+    };
+    if !maps.iter().all(is_near_its_image) {
+        return;
+    }
     let mut is_corner = vec![false; count];
     for &v in &pattern.corners {
         is_corner[v as usize] = true;
