@@ -5,6 +5,7 @@
 
 mod remarks;
 mod supports;
+mod symmetry;
 
 use crate::config::{self, Config};
 use crate::domain::{self, Domain, DomainError};
@@ -16,8 +17,9 @@ use crate::geometry::{self, Pattern, PatternParams, Rejection, Shaped};
 use crate::grammar::{self, Decoded, Rules, Tokens};
 use crate::io::Inputs;
 use crate::mesh::distance::deletions;
+use crate::mesh::fold::{FoldError, Folded};
 use crate::mesh::isomorphism::{Equivalence, Symmetry, canonical_mesh_under};
-use crate::mesh::{BaseMeshError, CanonicalMesh, Code, InitialMesh, QuadMesh};
+use crate::mesh::{BaseMesh, BaseMeshError, CanonicalMesh, Code, InitialMesh, QuadMesh};
 use crate::objectives::{self, AnalysedDesign, METRICS, Metric};
 use crate::random::Rng;
 use crate::search::operators::{Growth, Reach};
@@ -38,11 +40,15 @@ pub struct Study {
     pub surface: Arc<dyn Surface>,
     /// The initial mesh and the marker's start.
     pub initial: InitialMesh,
+    /// The same folded along the mirrors of the config: where strings are decoded. Without mirrors the mesh itself.
+    pub start: Folded,
     /// What is minimised, in the order of the config.
     pub objectives: Vec<&'static Metric>,
     /// By which rules strings grow.
     pub rules: Rules,
     symmetries: Vec<Symmetry>,
+    /// The reflections that every pattern is to have.
+    mirrors: Vec<domain::Symmetry>,
     /// Code of the initial mesh.
     baseline: Code,
     pinched: Pinched,
@@ -102,6 +108,23 @@ pub enum StudyError {
     /// There is no initial mesh.
     #[error("{0}")]
     Initial(#[from] InitialError),
+    /// Boundary or surface do not have a symmetry that patterns are to have.
+    #[error("topology.symmetry: the domain does not have `{symmetry}`: {reason}")]
+    NoMirror {
+        /// The symmetry.
+        symmetry: &'static str,
+        /// What has no image.
+        reason: String,
+    },
+    /// A symmetry that patterns are to have is listed twice.
+    #[error("topology.symmetry: `{symmetry}` is listed twice")]
+    MirrorTwice {
+        /// The symmetry.
+        symmetry: &'static str,
+    },
+    /// The initial mesh does not have a symmetry that patterns are to have.
+    #[error("topology.symmetry: the initial mesh is not symmetric: {0}")]
+    Fold(#[from] FoldError),
     /// The initial mesh is not a valid quad mesh.
     #[error("topology.initial: {0}")]
     Mesh(#[from] BaseMeshError),
@@ -122,6 +145,9 @@ impl StudyError {
             Self::SupportPoint { key, .. } => key.clone(),
             Self::Initial(error) => error.key(&config.topology),
             Self::Mesh(_) => "topology.initial".to_owned(),
+            Self::NoMirror { .. } | Self::MirrorTwice { .. } | Self::Fold(_) => {
+                "topology.symmetry".to_owned()
+            }
         }
     }
 }
@@ -203,6 +229,9 @@ impl Study {
         let limits = Limits::of(&config.pattern.limits, config.pattern.target_length(&domain));
         let objectives =
             config.objectives.minimise.iter().filter_map(|name| objectives::find(name)).collect();
+        let mirrors: Vec<domain::Symmetry> = config.topology.symmetry.iter().map(|m| m.kind()).collect();
+        let start = Folded::new(&initial, &symmetry::mirrors(&domain, &mirrors)?)?;
+        let whole = start.unfold(&start.part.mesh, start.part.marker).0;
         Ok(Self {
             rules: match config.topology.rules {
                 RulesParam::Plain => Rules::Plain,
@@ -210,9 +239,11 @@ impl Study {
             },
             domain,
             surface,
-            baseline: canonical_mesh_under(&initial.mesh, &symmetries).code,
+            baseline: canonical_mesh_under(&whole, &symmetries).code,
             symmetries,
+            mirrors,
             initial,
+            start,
             objectives,
             pinched: config.topology.pinched,
             limits,
@@ -240,9 +271,16 @@ impl Study {
         self.baseline
     }
 
-    /// Reads a string.
+    /// Reads a string. Trace and expressed string are those of the part that it is decoded on, mesh and marker those of the whole.
     pub fn decode(&self, tokens: &Tokens) -> Decoded {
-        grammar::decode(&self.initial, tokens, self.rules)
+        let part = self.decode_part(tokens);
+        let (mesh, marker) = self.start.unfold(&part.mesh, part.marker);
+        Decoded { mesh, marker, ..part }
+    }
+
+    /// Reads a string as far as the part of the mesh that it is decoded on; without mirrors that is all of it.
+    pub fn decode_part(&self, tokens: &Tokens) -> Decoded {
+        grammar::decode(&self.start.part, tokens, self.rules)
     }
 
     /// The canonical mesh of a string: all that geometry may know of it.
@@ -301,9 +339,7 @@ impl Study {
 
     /// The same, but refused at once where it would break `limits` in every pattern.
     fn pattern(&self, topology: CanonicalMesh, limits: Option<&Limits>) -> Result<Design, Failure> {
-        if let Some(rejection) =
-            geometry::topological_rejection(&topology, &self.domain, self.pinched, limits)
-        {
+        if let Some(rejection) = self.rejection(&topology, limits) {
             return Err(rejection.into());
         }
         let surface = self.surface.as_ref();
@@ -344,7 +380,7 @@ impl Study {
 
     /// How strings grow here.
     fn growth(&self) -> Growth<'_> {
-        Growth { initial: &self.initial, rules: self.rules, bounds: self.search.tokens }
+        Growth { initial: &self.start.part, rules: self.rules, bounds: self.search.tokens }
     }
 
     /// All strings that lead from an expressed string one strip further; several may have the same topology.
@@ -380,14 +416,27 @@ impl Study {
     }
 }
 
-/// The initial mesh of the config with its marks: not sharp where the domain has no corners (docs/reference/geometry.md §0.4).
+/// The initial mesh of the config.
 fn initial_mesh(config: &Config, domain: &Domain, inputs: &Inputs) -> Result<InitialMesh, StudyError> {
-    let base = skeleton::initial(&config.topology, domain, inputs)?;
-    let mut initial = InitialMesh::from_base(&base)?;
+    marked(&skeleton::initial(&config.topology, domain, inputs)?, domain)
+}
+
+/// A base mesh with its marks: not sharp where the domain has no corners (docs/reference/geometry.md §0.4).
+fn marked(base: &BaseMesh, domain: &Domain) -> Result<InitialMesh, StudyError> {
+    let mut initial = InitialMesh::from_base(base)?;
     if domain.mark().is_some() {
         initial.mesh.blunt(0);
     }
     Ok(initial)
+}
+
+/// The initial mesh of a config as it is folded along the mirrors that patterns are to have: where strings start.
+///
+/// # Errors
+/// A symmetry that domain or mesh do not have.
+pub fn start(config: &Config, domain: &Domain, base: &BaseMesh) -> Result<Folded, StudyError> {
+    let kinds: Vec<domain::Symmetry> = config.topology.symmetry.iter().map(|mirror| mirror.kind()).collect();
+    Ok(Folded::new(&marked(base, domain)?, &symmetry::mirrors(domain, &kinds)?)?)
 }
 
 impl Design {
@@ -429,13 +478,15 @@ impl Problem for Study {
         let decoded = self.decode(tokens);
         let topology = canonical_mesh_under(&decoded.mesh, &self.symmetries);
         let limits = (topology.code != self.baseline).then_some(&self.limits);
-        let rejected = geometry::topological_rejection(&topology, &self.domain, self.pinched, limits)
+        let rejected = self
+            .rejection(&topology, limits)
             .map(Failure::from)
             .map(|failure| (failure.violation, failure.reason));
         Identity {
             code: topology.code,
             neighbourhood: self.neighbourhood(&decoded.mesh, &topology),
             expressed: decoded.expressed,
+            symmetries: self.symmetries_of(&topology),
             rejected,
         }
     }

@@ -57,7 +57,7 @@ fn writes_everything_and_nothing_twice() {
     }
     assert_eq!(&read(&folder, "pareto.excel-eu.csv")[..3], b"\xEF\xBB\xBF");
     let header = text(&read(&folder, "pareto.csv")).lines().next().unwrap().to_owned();
-    let start = "id,string,expressed,code,generation,feasible,deflection_m,curvature,edge_spread_m,";
+    let start = "id,string,expressed,code,symmetry,generation,feasible,deflection_m,curvature,edge_spread_m,";
     assert!(header.starts_with(start), "{header}");
     let history = text(&read(&folder, "history.csv"));
     assert!(history.lines().next().unwrap().ends_with(",violation_stage,violation,reason"));
@@ -98,7 +98,7 @@ fn works_on_results(temporary: &Path, id: &str) {
     let path = temporary.join("r/history.csv");
     let history = fs::read_to_string(&path).unwrap();
     let line = history.lines().find(|line| line.starts_with(id)).unwrap();
-    let value = line.split(',').nth(6).unwrap();
+    let value = line.split(',').nth(7).unwrap();
     fs::write(&path, history.replace(value, "0.5")).unwrap();
     let verified = quadrille(temporary, &["verify", "r", "--design", id]);
     assert_eq!(verified.status.code(), Some(1));

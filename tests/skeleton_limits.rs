@@ -141,7 +141,7 @@ fn the_museum() {
         let apart = base.vertices[..v].iter().map(|q| (p[0] - q[0]).hypot(p[1] - q[1]));
         assert!(apart.fold(f64::INFINITY, f64::min) > 0.5, "vertex {v}");
     }
-    let svg = skeleton::picture::svg(&base, &domain, "museum").unwrap();
+    let svg = skeleton::picture::svg(&base, &domain, "museum", &[]).unwrap();
     let [low, high] = domain.bounds();
     let scale = 800.0 / (high[0] - low[0]);
     let mut edges = 0;

@@ -101,8 +101,8 @@ fn a_front_with_other_designs_is_told() {
     assert!(twice.len() == 1 && twice[0].ends_with("listed a second time"), "{twice:?}");
     let none = told("pareto.csv", |table| table.truncate(1));
     assert!(none.len() > 1, "{none:?}");
-    let swapped = told("pareto.csv", |table| table.iter_mut().for_each(|row| row.swap(6, 7)));
-    assert!(swapped[0].starts_with("pareto.csv: line 1, column 7: expected deflection_m, found "));
+    let swapped = told("pareto.csv", |table| table.iter_mut().for_each(|row| row.swap(7, 8)));
+    assert!(swapped[0].starts_with("pareto.csv: line 1, column 8: expected deflection_m, found "));
 }
 
 #[test]
@@ -130,7 +130,7 @@ fn verify_ends_with_1_where_tables_differ_and_with_2_without_a_column() {
     assert!(text.contains("mass_kg: expected ") && text.contains(" designs verified"), "{text}");
     let (code, text) = verify("pareto.csv", |table| table.truncate(1), &[]);
     assert!(code == Some(1) && text.contains("\n0 of "), "{code:?} {text}");
-    let (code, text) = verify("pareto.csv", |table| table[0][6] = "deflection".into(), &[]);
+    let (code, text) = verify("pareto.csv", |table| table[0][7] = "deflection".into(), &[]);
     assert_eq!(code, Some(2), "{text}");
     assert!(text.contains("pareto.csv: line 1: columns are missing: deflection_m"), "{text}");
 }

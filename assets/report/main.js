@@ -22,14 +22,18 @@ function startToolbar() {
   for (const [key, text] of [["none", "one colour"], ...objectives.map((o, i) => [String(i), o.label]), ["family", "family"]]) paint.add(new Option(text, key));
   paint.addEventListener("change", () => { state.paint = paint.value; changed("paint"); });
   events.on("paint.key", () => { byId("paint-key").innerHTML = paintKey(); });
-  byId("clear").addEventListener("click", () => { state.limits.clear(); state.family = null; changed("limits"); });
+  const symmetry = byId("symmetry"), symmetries = d3.sort(new Set(frontDesigns.flatMap(symmetriesOf)));
+  byId("symmetry-label").hidden = !symmetries.length;
+  for (const [key, text] of [["", "any"], ...symmetries.map((s) => [s, s]), ["none", "none"]]) symmetry.add(new Option(text, key));
+  symmetry.addEventListener("change", () => { state.symmetry = symmetry.value || null; changed("limits"); });
+  byId("clear").addEventListener("click", () => { state.limits.clear(); state.family = null; state.symmetry = null; symmetry.value = ""; changed("limits"); });
   byId("previous").addEventListener("click", () => step(-1));
   byId("next").addEventListener("click", () => step(1));
   byId("pin").addEventListener("click", () => togglePin(state.picked));
   const count = () => {
     const n = frontDesigns.filter(kept).length, baseline = designs.find((d) => d.baseline);
     byId("kept").textContent = `${whole(n)} of ${plural(frontDesigns.length, "design")} of the front within the limits${state.family ? ` and in family ${state.family.letter}` : ""}${!baseline ? "" : baseline.onFront ? ", the baseline being one of the front" : "; the baseline is shown beside them"}`;
-    byId("clear").disabled = !state.limits.size && !state.family;
+    byId("clear").disabled = !state.limits.size && !state.family && !state.symmetry;
   };
   events.on("limits.count", count);
   count();

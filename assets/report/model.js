@@ -114,6 +114,7 @@ const state = {
   hovered: null,
   limits: new Map(), // objective → [low, high]
   family: null,
+  symmetry: null, // "none", or what kept designs must have, such as mirror-x
   pinned: [],
   field: "curvature", // what panels or members are coloured by
   paint: "none", // what lines and points are coloured by
@@ -121,9 +122,13 @@ const state = {
 const events = d3.dispatch("pick", "hover", "limits", "pins", "field", "paint");
 const changed = (what) => events.call(what);
 
+const symmetriesOf = (design) => design.symmetry.split(" ").filter(Boolean);
+const hasSymmetry = (design, wanted) => (wanted === "none" ? !design.symmetry : symmetriesOf(design).includes(wanted));
+
 /** Whether a design is inside all limits; the baseline is shown whatever they are, and is not counted. */
 function kept(design) {
   if (state.family && design.family !== state.family) return false;
+  if (state.symmetry && !hasSymmetry(design, state.symmetry)) return false;
   for (const [objective, [low, high]] of state.limits) {
     const v = value(design, objective);
     if (!known(v) || v < low || v > high) return false;

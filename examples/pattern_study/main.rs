@@ -120,7 +120,7 @@ fn read_strings(file: &Path) -> Result<Vec<Tokens>, Box<dyn Error>> {
 /// Strings with distinct codes, none of them flat or pinched.
 fn random_strings(study: &Study, kind: &str, wanted: usize, seed: u64) -> Vec<Tokens> {
     let growth =
-        Growth { initial: &study.initial, rules: study.rules, bounds: TokenBounds { min: 10, max: 40 } };
+        Growth { initial: &study.start.part, rules: study.rules, bounds: TokenBounds { min: 10, max: 40 } };
     let initialiser = if kind == "aware" { Initialiser::Aware } else { Initialiser::Structured };
     let mut codes = BTreeSet::new();
     let mut strings = Vec::new();

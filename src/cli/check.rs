@@ -33,6 +33,16 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     for line in outlook(&study, config) {
         outln!("# * {line}");
     }
+    if study.start.is_folded() {
+        let (part, whole) = (&study.start.part.mesh, &study.initial.mesh);
+        outln!(
+            "# * every pattern is symmetric: strings are decoded on a part of the initial mesh with {} faces and {} edges on seams \
+             (the whole has {} faces); supports and loads need no symmetry, the whole structure is analysed",
+            part.face_count(),
+            study.start.seams().len(),
+            whole.face_count()
+        );
+    }
     let unused = study.unused_symmetries(config);
     if !unused.is_empty() {
         outln!(

@@ -4,7 +4,7 @@ use super::CliError;
 use quadrille::evolve::{Domination, compare_objectives};
 use quadrille::geometry::Pattern;
 use quadrille::grammar::Tokens;
-use quadrille::mesh::{CanonicalMesh, Code};
+use quadrille::mesh::{CanonicalMesh, Code, Symmetries};
 use quadrille::objectives::{GOVERNING, METRICS};
 use quadrille::output::designs::id;
 use quadrille::output::number::significant;
@@ -25,6 +25,8 @@ pub struct Entry {
     pub tokens: Tokens,
     /// Its placed + reduced code.
     pub code: Code,
+    /// Which symmetries it has.
+    pub symmetries: Symmetries,
     /// Its numbers, or why it has none.
     pub evaluation: Evaluation,
     /// Whether it has a pattern, sound or folded.
@@ -64,6 +66,7 @@ impl Comparison {
         let evaluate = |(name, tokens): (String, Tokens)| {
             let topology = study.topology(&tokens);
             let code = topology.code;
+            let symmetries = study.symmetries_of(&topology);
             let (evaluation, reached) = match save {
                 None => examine(study, topology),
                 Some(save) => match Developed::of(study, topology, Proof::None) {
@@ -79,7 +82,7 @@ impl Comparison {
                 Reached::Pattern(design) if study.surface.kind() == SurfaceKind::Free => Some(design.pattern),
                 _ => None,
             };
-            Ok(Entry { name, tokens, code, evaluation, has_pattern, form })
+            Ok(Entry { name, tokens, code, symmetries, evaluation, has_pattern, form })
         };
         let all = || named.into_par_iter().map(evaluate).collect();
         let entries: Vec<Result<Entry, CliError>> = thread_pool(threads)?.install(all);
@@ -110,7 +113,7 @@ impl Comparison {
     }
 
     fn with(&self, number: impl Fn(f64, f64) -> f64) -> Table {
-        let head = ["name", "string", "id", "feasible", "non_dominated"];
+        let head = ["name", "string", "id", "symmetry", "feasible", "non_dominated"];
         let columns = METRICS.iter().map(|metric| metric.column);
         let governing = GOVERNING.iter().map(|(column, _)| *column);
         let mut table = Table::new(head.into_iter().chain(columns).chain(governing).chain(["reason"]));
@@ -120,6 +123,7 @@ impl Comparison {
                 entry.name.clone().into(),
                 entry.tokens.to_string().into(),
                 entry.id().into(),
+                Cell::words(&entry.symmetries.to_string()),
                 evaluation.violation.is_feasible().into(),
                 self.is_non_dominated(index).into(),
             ];

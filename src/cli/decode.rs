@@ -4,14 +4,15 @@ use super::CliError;
 use super::stdout::print_result;
 use super::topology::{TopologyArgs, parse_string};
 use clap::ValueEnum;
-use quadrille::grammar;
+use quadrille::grammar::{self, Decoded};
 use quadrille::output::coarse::{self, Reading};
 use std::process::ExitCode;
 
 /// Decode a string to its coarse mesh: trace, strips, singularities, mesh.
 ///
 /// Every string has a meaning: a rule that cannot be applied is skipped, and the trace says why. What the JSON says
-/// of the mesh loads again with --base.
+/// of the mesh loads again with --base. Where the config asks for symmetric patterns, strings are decoded on a part of
+/// the initial mesh: trace and marker are told of the part, and part and whole mesh are shown.
 #[derive(clap::Args)]
 pub struct Args {
     #[command(flatten)]
@@ -40,9 +41,11 @@ enum Format {
 /// Prints the decoded string.
 pub fn run(args: &Args) -> Result<ExitCode, CliError> {
     let string = parse_string("--string", &args.string)?;
-    let (initial, rules) = args.topology.load()?;
-    let decoded = grammar::decode(&initial, &string, rules);
-    let reading = Reading { string: &string, decoded: &decoded };
+    let (start, rules) = args.topology.load()?;
+    let part = grammar::decode(&start.part, &string, rules);
+    let (mesh, marker) = start.unfold(&part.mesh, part.marker);
+    let decoded = Decoded { mesh, marker, ..part.clone() };
+    let reading = Reading { string: &string, decoded: &decoded, part: start.is_folded().then_some(&part) };
     let text = match args.format {
         Format::Text => coarse::text(reading),
         Format::Json => coarse::json(reading).map_err(|error| CliError::Failed(error.to_string()))? + "\n",

@@ -62,9 +62,12 @@ struct Answer {
 pub fn run(args: &Args) -> Result<ExitCode, CliError> {
     let a = parse_string("--a", &args.a)?;
     let b = parse_string("--b", &args.b)?;
-    let (initial, rules) = args.topology.load()?;
+    let (start, rules) = args.topology.load()?;
     let equivalence = Equivalence { placed: !args.not_placed, reduce: !args.no_reduce, mirror: args.mirror };
-    let mesh = |tokens: &Tokens| grammar::decode(&initial, tokens, rules).mesh;
+    let mesh = |tokens: &Tokens| {
+        let part = grammar::decode(&start.part, tokens, rules);
+        start.unfold(&part.mesh, part.marker).0
+    };
     let topological = mesh::distance(&mesh(&a), &mesh(&b), equivalence, args.max);
     let answer = Answer {
         topological: if let Distance::Exactly(d) = topological { Some(d) } else { None },

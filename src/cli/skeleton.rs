@@ -6,7 +6,7 @@ use quadrille::config::Project;
 use quadrille::domain::Domain;
 use quadrille::io::obj;
 use quadrille::mesh::BaseMesh;
-use quadrille::study::StudyError;
+use quadrille::study::{self, StudyError};
 use quadrille::{skeleton, surface};
 use serde_json::json;
 use std::process::ExitCode;
@@ -14,7 +14,8 @@ use std::process::ExitCode;
 /// Print the initial mesh of a config: from the medial axis of its domain, or as the config gives it.
 ///
 /// It is what the empty string stands for, and what every string rewrites. In the picture vertices have their numbers,
-/// singular ones their valence (orange: fewer edges than regular, blue: more), corners are white, the marker is green.
+/// singular ones their valence (orange: fewer edges than regular, blue: more), corners are white, the marker is green. Where
+/// the config asks for symmetric patterns, dashed lines are the seams of the part that strings rewrite.
 #[derive(clap::Args)]
 pub struct Args {
     #[command(flatten)]
@@ -41,10 +42,14 @@ pub fn run(args: Args, _console: &Console) -> Result<ExitCode, CliError> {
     let file = &args.config.config;
     let name = file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
     match args.format {
-        Format::Svg => match skeleton::picture::svg(&base, &domain, &name) {
-            Ok(picture) => out!("{picture}"),
-            Err(error) => return Err(CliError::Input(format!("{}: {error}", file.display()))),
-        },
+        Format::Svg => {
+            let start = study::start(&project.config, &domain, &base);
+            let start = start.map_err(|error| located(&project, &error))?;
+            match skeleton::picture::svg(&base, &domain, &name, &start.seams()) {
+                Ok(picture) => out!("{picture}"),
+                Err(error) => return Err(CliError::Input(format!("{}: {error}", file.display()))),
+            }
+        }
         Format::Json => outln!("{}", to_json(&base)),
         Format::Obj => out!("{}", obj::write(&name, &base)),
     }

@@ -5,6 +5,7 @@ use super::config_args::ConfigArgs;
 use clap::ValueEnum;
 use quadrille::grammar::{Rules, Tokens};
 use quadrille::io::text;
+use quadrille::mesh::fold::Folded;
 use quadrille::mesh::{InitialMesh, base_json};
 use std::path::{Path, PathBuf};
 
@@ -39,10 +40,10 @@ enum RulesArg {
 }
 
 impl TopologyArgs {
-    /// Reads the initial mesh.
-    pub fn load(&self) -> Result<(InitialMesh, Rules), CliError> {
+    /// Reads the initial mesh, folded where the config asks for symmetric patterns.
+    pub fn load(&self) -> Result<(Folded, Rules), CliError> {
         let (initial, default) = match (&self.source.base, &self.source.config) {
-            (Some(base), _) => (read_base(base)?, Rules::Plain),
+            (Some(base), _) => (Folded::whole(read_base(base)?), Rules::Plain),
             (None, Some(config)) => from_config(config)?,
             (None, None) => return Err(CliError::Input("a config or --base is needed".into())),
         };
@@ -67,9 +68,9 @@ pub fn parse_string(place: &str, text: &str) -> Result<Tokens, CliError> {
     text.parse().map_err(|error| CliError::Input(format!("{place} {text:?}: {error}")))
 }
 
-/// The initial mesh and the rules of a config.
-fn from_config(file: &Path) -> Result<(InitialMesh, Rules), CliError> {
+/// The initial mesh, folded where it is to be, and the rules of a config.
+fn from_config(file: &Path) -> Result<(Folded, Rules), CliError> {
     let args = ConfigArgs { config: file.to_path_buf(), set: Vec::new() };
     let study = args.study(&args.load(&[])?)?;
-    Ok((study.initial, study.rules))
+    Ok((study.start, study.rules))
 }

@@ -81,7 +81,8 @@ fn differences(study: &Study, row: &EvaluatedRow) -> Vec<String> {
         return vec![format!("string {} no longer gives this design", row.tokens)];
     }
     let now = evaluate(study, &row.tokens).sanitised(study.objectives.len());
-    let mut differences = words(row, &now, &study.identify(&row.tokens).expressed.to_string());
+    let identity = study.identify(&row.tokens);
+    let mut differences = words(row, &now, &identity.expressed.to_string());
     let measure = ("violation", Some(row.violation.measure), Some(now.violation.measure));
     let metrics = METRICS
         .iter()

@@ -20,7 +20,7 @@ use crate::io::Inputs;
 use crate::surface::Surface;
 use curve::Curve;
 use std::f64::consts::PI;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// How fine the patterns on a domain are to be: what is short on its boundary is short against them.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -57,6 +57,8 @@ pub struct Domain {
     surface_area: f64,
     /// Loops whose file leaves gaps that were closed, and the widest of each, m.
     pub closed_gaps: Vec<(usize, f64)>,
+    /// What [`Domain::own_symmetries`] found, once it was asked for.
+    own_symmetries: OnceLock<Vec<(Symmetry, crate::mesh::Symmetry)>>,
 }
 
 impl Domain {
@@ -118,7 +120,7 @@ impl Domain {
             .map(|(curve, corners)| BoundaryLoop::new(curve, surface, corners, way))
             .collect();
         let plan_loops = loops.iter().map(BoundaryLoop::in_plan).collect();
-        Ok(Self { loops, plan_loops, mark, surface_area, closed_gaps })
+        Ok(Self { loops, plan_loops, mark, surface_area, closed_gaps, own_symmetries: OnceLock::new() })
     }
 
     /// Corners of all loops together.

@@ -18,7 +18,7 @@ impl Kind {
     }
 
     /// Signs of x and y about the middle.
-    fn signs(self) -> [f64; 2] {
+    pub fn signs(self) -> [f64; 2] {
         match self {
             Self::MirrorX => [-1.0, 1.0],
             Self::MirrorY => [1.0, -1.0],
@@ -67,11 +67,20 @@ impl Domain {
         Ok(Symmetry { loops, corners, reversed: kind != Kind::Rotate180 })
     }
 
-    pub(super) fn image(&self, [x, y, z]: [f64; 3], kind: Kind) -> [f64; 3] {
+    /// The symmetries that boundary and surface have, and the mark where there is no corner.
+    pub fn own_symmetries(&self) -> &[(Kind, Symmetry)] {
+        self.own_symmetries.get_or_init(|| {
+            Kind::ALL.into_iter().filter_map(|kind| Some((kind, self.symmetry(kind).ok()?))).collect()
+        })
+    }
+
+    /// The image of a point under a symmetry about the middle of the bounding box, m.
+    pub fn image(&self, [x, y, z]: [f64; 3], kind: Kind) -> [f64; 3] {
         let [low, high] = self.bounds();
         let [sx, sy] = kind.signs();
-        let [cx, cy] = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
-        [cx + sx * (x - cx), cy + sy * (y - cy), z]
+        // A coordinate that is kept keeps every bit.
+        let across = |sign: f64, x: f64, k: usize| if sign > 0.0 { x } else { (low[k] + high[k]) - x };
+        [across(sx, x, 0), across(sy, y, 1), z]
     }
 
     fn image_of_loop(&self, loop_number: usize, kind: Kind, tolerance: f64) -> Result<u32, String> {

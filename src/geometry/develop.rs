@@ -7,6 +7,7 @@ use super::corners::{self, LoopCorners};
 use super::dense::{Dense, Edges, densify};
 use super::density::Fineness;
 use super::force_density;
+use super::images::{self, Image};
 use super::limits::Limits;
 use super::optimise::{Ground, Optimiser, Sheet, Task};
 use super::params::{Density, PatternParams, Pinched, RelaxKind};
@@ -85,7 +86,7 @@ pub fn shape(
     let stage = Stage { coarse: &coarse, domain, surface, corners: &corners };
     let aims = limits.aims();
     let task = stage.task(params, &limits, &aims);
-    let ground = Ground::new(domain, surface, limits.target_length);
+    let ground = Ground::new(domain, surface, limits.target_length).with_images(Image::all(mesh, domain));
     let optimiser = Optimiser::new(&task, &ground);
     let probe = stage.probe(params.max_faces)?.into_sheet(&ground);
     if params.relax.kind == RelaxKind::Optimise {
@@ -94,7 +95,8 @@ pub fn shape(
     }
     let rows = optimiser.pattern_rows(&probe)?;
     let relaxed = |folds| {
-        let pattern = stage.relaxed(&rows, params, &limits, folds)?;
+        let mut pattern = stage.relaxed(&rows, params, &limits, folds)?;
+        images::even_out(&mut pattern, &ground.images, domain, surface);
         Ok(Shaped::of(pattern, domain, surface))
     };
     let shaped = relaxed(Folds::Leave)?;

@@ -16,6 +16,7 @@ pub mod density;
 mod develop;
 pub mod deviation;
 pub mod force_density;
+pub mod images;
 pub mod laplacian;
 pub mod limits;
 pub mod metrics;
@@ -32,6 +33,7 @@ pub mod untangle;
 pub mod vector;
 
 pub use develop::{Shaped, develop, shape, topological_rejection};
+pub use images::Image;
 pub use params::{PatternParams, TopologyParams};
 pub use pattern::{Panel, Pattern};
 pub use rejection::Rejection;

@@ -1,7 +1,7 @@
 //! The `[pattern]` table of the config.
 
 use crate::domain::params::LengthUnit;
-use crate::domain::{Domain, Grain};
+use crate::domain::{Domain, Grain, Symmetry};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -158,6 +158,9 @@ pub struct TopologyParams {
     /// Marker of the initial mesh as two vertices of an edge; default the first dart of face 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub marker: Option<[usize; 2]>,
+    /// Symmetries that all patterns are to have: `mirror-x`, `mirror-y`, or both. Strings are then decoded on a half or a quarter of the
+    /// initial mesh. Boundary, surface and initial mesh must have them; supports and loads need not, the whole structure is analysed.
+    pub symmetry: Vec<MirrorParam>,
     /// `"domain"` or `"plain"` (docs/reference/grammar.md §2.6).
     pub rules: RulesParam,
     /// What to do with pinched boundary vertices (docs/reference/geometry.md §1.4).
@@ -179,8 +182,29 @@ impl Default for TopologyParams {
         Self {
             initial: InitialMesh::Word(Skeleton::Skeleton),
             marker: None,
+            symmetry: Vec::new(),
             rules: RulesParam::Domain,
             pinched: Pinched::Reject,
+        }
+    }
+}
+
+/// A reflection that patterns are to have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum MirrorParam {
+    /// x → −x about the middle of the domain.
+    MirrorX,
+    /// y → −y about the middle of the domain.
+    MirrorY,
+}
+
+impl MirrorParam {
+    /// The same as a symmetry of the domain.
+    pub fn kind(self) -> Symmetry {
+        match self {
+            Self::MirrorX => Symmetry::MirrorX,
+            Self::MirrorY => Symmetry::MirrorY,
         }
     }
 }

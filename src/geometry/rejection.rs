@@ -17,6 +17,11 @@ pub enum Rejection {
         /// The coarse vertices.
         vertices: Vec<u32>,
     },
+    /// It has not the symmetry that every pattern is to have.
+    NotSymmetric {
+        /// Its name.
+        symmetry: &'static str,
+    },
     /// Vertices with too many panels for the valence limit or for the angle there is, or too few at a corner
     /// (docs/reference/geometry.md §1.4).
     Crowded {
@@ -85,7 +90,11 @@ impl Rejection {
     pub fn stage(&self) -> u8 {
         match self {
             Self::Folds { .. } | Self::OutsideDomain { .. } | Self::Coincident { .. } => 3,
-            Self::Flat { .. } | Self::Pinched { .. } | Self::Crowded { .. } | Self::CornerLost { .. } => 4,
+            Self::Flat { .. }
+            | Self::Pinched { .. }
+            | Self::NotSymmetric { .. }
+            | Self::Crowded { .. }
+            | Self::CornerLost { .. } => 4,
             Self::TooManyFaces { .. } => 5,
             Self::NotFinite { .. } | Self::OtherLoops { .. } => 6,
         }
@@ -100,7 +109,10 @@ impl Rejection {
             Self::Flat { faces, edges } => (faces.len() + edges.len()) as f64,
             Self::Pinched { vertices } => vertices.len() as f64,
             Self::Crowded { excess, .. } => *excess,
-            Self::CornerLost { .. } | Self::NotFinite { .. } | Self::OtherLoops { .. } => 1.0,
+            Self::CornerLost { .. }
+            | Self::NotSymmetric { .. }
+            | Self::NotFinite { .. }
+            | Self::OtherLoops { .. } => 1.0,
             Self::TooManyFaces { n, max } => libm::log(*n as f64 / (*max).max(1) as f64),
         }
     }
@@ -112,7 +124,16 @@ impl fmt::Display for Rejection {
             Self::Flat { faces, edges } => {
                 write!(f, "flat: {} faces, {} edges in a straight wall", faces.len(), edges.len())
             }
-            Self::Pinched { vertices } => write!(f, "pinched: {} boundary vertices", vertices.len()),
+            Self::Pinched { vertices } => {
+                write!(
+                    f,
+                    "pinched: {} vertices with one panel on the boundary or beside an axis",
+                    vertices.len()
+                )
+            }
+            Self::NotSymmetric { symmetry } => {
+                write!(f, "not symmetric: without parallel strips it does not have {symmetry}")
+            }
             Self::Crowded { vertices, .. } => {
                 write!(
                     f,

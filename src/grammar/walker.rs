@@ -2,11 +2,11 @@
 
 use crate::mesh::contract::contract;
 use crate::mesh::subdivide::subdivide;
-use crate::mesh::unzip::{self, Course, unzip};
+use crate::mesh::unzip::{self, Course, End, unzip};
 use crate::mesh::validate::Invalid;
 use crate::mesh::{DartId, InitialMesh, QuadMesh, StripId, VertexId, strips, validate};
 
-use super::rules::{Rules, Skip};
+use super::rules::{self, Rules, Skip};
 use super::tokens::Token;
 
 /// What a token did: one record of the trace.
@@ -49,10 +49,10 @@ pub struct Added {
 impl Added {
     /// How it ends: `["closed"]`, or what its start and its end are.
     pub fn ends(&self) -> Vec<&'static str> {
-        let end = |pole: bool| if pole { "pole" } else { "boundary" };
+        let name = |end: End| if end == End::Pole { "pole" } else { "boundary" };
         match self.course {
             Course::Closed => vec!["closed"],
-            Course::Open { start_pole, end_pole } => vec![end(start_pole), end(end_pole)],
+            Course::Open(ends) => ends.map(name).to_vec(),
         }
     }
 }
@@ -171,11 +171,7 @@ impl Walker {
             Some(polyedge) => (polyedge.opened_with, polyedge.darts.as_slice()),
             None => (closing, [].as_slice()),
         };
-        let course = if opening == Token::AddClosed || closing == Token::AddClosed {
-            Course::Closed
-        } else {
-            Course::Open { start_pole: opening == Token::AddPole, end_pole: closing == Token::AddPole }
-        };
+        let course = course(&self.mesh, path, [opening, closing]);
         unzip::applicable(&self.mesh, path, course)?;
         self.draft.copy_from(&self.mesh);
         let strip = unzip(&mut self.draft, path, course);
@@ -210,6 +206,7 @@ impl Walker {
             &self.draft
         };
         let contraction = contract(old, strip)?;
+        rules::keep_seams(&self.mesh, &contraction.mesh)?;
         let marker = old
             .around(self.marker)
             .skip(1)
@@ -226,16 +223,33 @@ impl Walker {
     }
 }
 
+/// How a strip runs by the tokens around its path. Closed if either carries `°`; but on a part of a symmetric mesh, where the path does not
+/// come back to its start, `°` says of the end of a seam that the strip ends on the seam.
+fn course(mesh: &QuadMesh, path: &[DartId], tokens: [Token; 2]) -> Course {
+    let comes_back =
+        matches!((path.first(), path.last()), (Some(&a), Some(&b)) if mesh.origin(a) == mesh.end(b));
+    if tokens.contains(&Token::AddClosed) && (comes_back || !mesh.is_folded()) {
+        return Course::Closed;
+    }
+    Course::Open(tokens.map(|token| match token {
+        Token::AddPole => End::Pole,
+        Token::AddClosed => End::OnSeam,
+        _ => End::Regular,
+    }))
+}
+
 /// Which strips must be subdivided, and into how many, before `strip` goes, so that every boundary loop keeps at
-/// least 3 edges (§4.2). By label.
+/// least 3 edges (§4.2), images counted. By label.
 fn refinements(mesh: &QuadMesh, strip: StripId) -> Result<Vec<(StripId, usize)>, Invalid> {
     let mut refined: Vec<(StripId, usize)> = Vec::new();
-    for darts in mesh.loops() {
+    for (darts, label) in mesh.walls().iter().zip(0..) {
         let mut rest = darts.iter().map(|&d| mesh.strip(d)).filter(|&label| label != strip);
-        let wanted = match (rest.next(), rest.next(), rest.next()) {
-            (None, ..) => return Err(Invalid::ShortLoop),
-            (Some(only), None, _) => vec![(only, 3)],
-            (Some(a), Some(b), None) => vec![(a, 2), (b, 2)],
+        let wanted = match (mesh.images_in_loop(label), rest.next(), rest.next(), rest.next()) {
+            (0, ..) => Vec::new(),
+            (_, None, ..) => return Err(Invalid::ShortLoop),
+            (1, Some(only), None, _) => vec![(only, 3)],
+            (1, Some(a), Some(b), None) => vec![(a, 2), (b, 2)],
+            (2, Some(only), None, _) => vec![(only, 2)],
             _ => Vec::new(),
         };
         for (label, n) in wanted {

@@ -97,10 +97,12 @@ impl Colours {
         }
         let colour = |d: DartId| {
             let dart = mesh.dart(d);
-            let side = match dart.left.as_loop() {
-                Some(label) if placed => 2 + u128::from(label),
-                Some(_) => 2,
-                None => u128::from(dart.pole),
+            let side = match (dart.left.as_loop(), dart.left.as_seam()) {
+                (Some(label), _) if placed => 2 + u128::from(label),
+                (Some(_), _) => 2,
+                // Seams are told from all loops.
+                (None, Some(fold)) => 2 + u128::from(mesh.loop_count) + u128::from(fold),
+                (None, None) => u128::from(dart.pole),
             };
             side + if placed { 1000 * marks[dart.origin.index()] } else { 0 }
         };

@@ -151,6 +151,8 @@ impl Plan {
             face_count: self.removed.iter().filter(|&&removed| !removed).count() as u32,
             loop_count: mesh.loop_count,
             next_strip: mesh.next_strip,
+            images: mesh.images.clone(),
+            domain_corners: mesh.domain_corners,
         }
     }
 

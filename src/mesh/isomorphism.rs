@@ -101,17 +101,25 @@ pub struct Symmetry {
 }
 
 impl Symmetry {
+    /// Where a corner goes; one that is not named stays.
+    pub fn corner(&self, corner: u32) -> u32 {
+        self.corners.get(corner as usize).copied().unwrap_or(corner)
+    }
+
+    /// What comes to lie on the left of a dart that has this on its left: another loop, on an outside dart.
+    pub fn left(&self, left: Left) -> Left {
+        let image = |label: u32| Left::outside(self.loops.get(label as usize).copied().unwrap_or(label));
+        left.as_loop().map_or(left, image)
+    }
+
     /// The mesh on the other side of the symmetry. Labels and corners the lists do not name stay.
     pub fn apply(&self, mesh: &QuadMesh) -> QuadMesh {
         let mut image = if self.reversed { mirrored(mesh) } else { mesh.clone() };
-        let image_of = |list: &[u32], k: u32| list.get(k as usize).copied().unwrap_or(k);
         for dart in &mut image.darts {
-            if let Some(label) = dart.left.as_loop() {
-                dart.left = Left::outside(image_of(&self.loops, label));
-            }
+            dart.left = self.left(dart.left);
         }
         for mark in &mut image.marks {
-            *mark = Mark { corner: image_of(&self.corners, mark.corner), ..*mark };
+            *mark = Mark { corner: self.corner(mark.corner), ..*mark };
         }
         image.marks.sort_unstable();
         image

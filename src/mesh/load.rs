@@ -331,7 +331,7 @@ fn area_xy(mesh: &QuadMesh, darts: &[DartId]) -> f64 {
 
 /// Labels 0, 1, 2, … in the order in which a strip's first edge comes when faces are read in order and each face's
 /// edges in order (docs/reference/grammar.md §5): the order in which inside darts were made.
-fn label_strips(mesh: &mut QuadMesh) {
+pub(super) fn label_strips(mesh: &mut QuadMesh) {
     for d in mesh.darts() {
         if mesh.strip(d).0 == u32::MAX {
             let label = mesh.push_strip();

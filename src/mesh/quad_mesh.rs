@@ -13,11 +13,13 @@
 
 use super::ids::{DartId, FaceId, StripId, VertexId};
 
-/// What lies on the left of a dart: a face, or the outside with the label of its boundary loop.
+/// What lies on the left of a dart: a face, the outside with the label of its boundary loop, or, in a part of a symmetric mesh, the
+/// seam along which it goes on in its image ([`fold`](super::fold)).
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub struct Left(u32);
 
 const OUTSIDE: u32 = 1 << 31;
+const SEAM: u32 = 1 << 30;
 
 impl Left {
     /// A face.
@@ -30,6 +32,11 @@ impl Left {
         Self(OUTSIDE | label)
     }
 
+    /// No face here: a seam of this fold, counted from the first.
+    pub fn seam(fold: u32) -> Self {
+        Self(OUTSIDE | SEAM | fold)
+    }
+
     /// True where there is no face.
     pub fn is_outside(self) -> bool {
         self.0 & OUTSIDE != 0
@@ -40,9 +47,14 @@ impl Left {
         (!self.is_outside()).then_some(FaceId(self.0))
     }
 
-    /// The label of the boundary loop, on an outside dart.
+    /// The label of the boundary loop, on an outside dart that is not on a seam.
     pub fn as_loop(self) -> Option<u32> {
-        self.is_outside().then_some(self.0 & !OUTSIDE)
+        (self.0 & (OUTSIDE | SEAM) == OUTSIDE).then_some(self.0 & !OUTSIDE)
+    }
+
+    /// The fold whose seam it is.
+    pub fn as_seam(self) -> Option<u32> {
+        (self.is_outside() && self.0 & SEAM != 0).then_some(self.0 & !(OUTSIDE | SEAM))
     }
 }
 
@@ -88,6 +100,11 @@ pub struct QuadMesh {
     pub(super) face_count: u32,
     pub(super) loop_count: u32,
     pub(super) next_strip: u32,
+    /// In a part of a symmetric mesh, by loop label: how many images an edge of the loop has in the loop of the whole mesh, itself
+    /// included; 0 for a loop that is the image of another. Empty in a whole mesh, where all are 1.
+    pub(super) images: Vec<u32>,
+    /// In such a part: corners from this number on are ends of seams.
+    pub(super) domain_corners: u32,
 }
 
 impl QuadMesh {
@@ -111,9 +128,14 @@ impl QuadMesh {
         self.loop_count as usize
     }
 
-    /// Number of corners of the domain.
+    /// Number of corners: those of the domain and, in a part of a symmetric mesh, the ends of seams.
     pub fn corner_count(&self) -> usize {
         self.corner_count as usize
+    }
+
+    /// Number of corners of the domain, without the ends of seams.
+    pub fn domain_corner_count(&self) -> usize {
+        if self.is_folded() { self.domain_corners as usize } else { self.corner_count() }
     }
 
     /// V − E + F.
@@ -213,6 +235,33 @@ impl QuadMesh {
         }
     }
 
+    /// Whether it is a part of a symmetric mesh, with seams along which it goes on.
+    pub fn is_folded(&self) -> bool {
+        !self.images.is_empty()
+    }
+
+    /// How many images an edge of a boundary loop has in that loop of the whole mesh, itself included: 1 in a whole mesh, 0 where the
+    /// loop is itself the image of another.
+    pub fn images_in_loop(&self, label: u32) -> usize {
+        self.images.get(label as usize).map_or(1, |&images| images as usize)
+    }
+
+    /// For each loop label the darts of that loop, without those of seams.
+    pub fn walls(&self) -> Vec<Vec<DartId>> {
+        let mut walls = vec![Vec::new(); self.loop_count()];
+        for d in self.darts() {
+            if let Some(label) = self.left(d).as_loop() {
+                walls[label as usize].push(d);
+            }
+        }
+        walls
+    }
+
+    /// Whether a boundary vertex, given by the outside dart that leaves it, is the end of a seam.
+    pub fn is_seam_end(&self, gap: DartId) -> bool {
+        self.left(gap) != self.left(self.prev(gap))
+    }
+
     /// For each vertex, whether some face has its pole there.
     pub fn pole_vertices(&self) -> Vec<bool> {
         let mut poles = vec![false; self.vertex_count()];
@@ -254,14 +303,17 @@ impl QuadMesh {
         first.into_iter().flatten().collect()
     }
 
-    /// Each boundary loop as its outside darts, in label order, from the lowest numbered dart on.
+    /// Each boundary loop as its outside darts, in label order, from the lowest numbered dart on. In a part of a symmetric mesh a loop
+    /// goes round over walls and seams, and comes once, under the lowest of its labels; the others are empty.
     pub fn loops(&self) -> Vec<Vec<DartId>> {
         let mut loops = vec![Vec::new(); self.loop_count()];
-        for d in self.darts() {
-            if let Some(label) = self.left(d).as_loop()
-                && loops[label as usize].is_empty()
+        let mut seen = vec![false; self.darts.len()];
+        for (label, darts) in self.walls().into_iter().enumerate() {
+            if let Some(&first) = darts.first()
+                && !seen[first.index()]
             {
-                loops[label as usize] = self.along(d).collect();
+                loops[label] = self.along(first).collect();
+                loops[label].iter().for_each(|d| seen[d.index()] = true);
             }
         }
         loops
@@ -354,6 +406,8 @@ impl QuadMesh {
         self.face_count = other.face_count;
         self.loop_count = other.loop_count;
         self.next_strip = other.next_strip;
+        self.images.clone_from(&other.images);
+        self.domain_corners = other.domain_corners;
     }
 }
 

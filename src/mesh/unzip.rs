@@ -12,15 +12,21 @@ use super::quad_mesh::{Left, Mark, QuadMesh};
 /// How a new strip runs.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Course {
-    /// From end to end; an end that is not a pole is regular, on the boundary.
-    Open {
-        /// The strip starts at a pole.
-        start_pole: bool,
-        /// The strip ends at a pole.
-        end_pole: bool,
-    },
+    /// From its start to its end.
+    Open([End; 2]),
     /// Back to its start.
     Closed,
+}
+
+/// How a strip ends.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum End {
+    /// In a pole.
+    Pole,
+    /// On the boundary; at the end of a seam, coming from inside, on the wall (of two seams on the earlier fold's).
+    Regular,
+    /// At the end of a seam, coming from inside: on the seam (of two on the later fold's).
+    OnSeam,
 }
 
 /// Why a polyedge cannot be unzipped.
@@ -54,19 +60,31 @@ pub fn applicable(mesh: &QuadMesh, path: &[DartId], course: Course) -> Result<()
     match course {
         Course::Closed if mesh.origin(first) != mesh.end(last) => Err(Inapplicable::NotClosed),
         Course::Closed => Ok(()),
-        Course::Open { start_pole: true, end_pole: true } if path.len() == 1 => {
-            Err(Inapplicable::TwoPolesOnOneEdge)
-        }
-        Course::Open { start_pole, end_pole } => {
-            if !start_pole && mesh.gap(first).is_none() {
+        Course::Open([End::Pole, End::Pole]) if path.len() == 1 => Err(Inapplicable::TwoPolesOnOneEdge),
+        Course::Open([start, end]) => {
+            let gap_at_start = mesh.gap(first);
+            let gap_at_end = mesh.gap(mesh.next(last));
+            // `°` on an end says something only where a path comes from inside to the end of a seam; else it asks for a closed strip.
+            let is_told = |end: End, gap: Option<DartId>, edge: DartId| {
+                end != End::OnSeam
+                    || gap.is_some_and(|gap| mesh.is_seam_end(gap)) && boundary_of(mesh, edge).is_none()
+            };
+            if start != End::Pole && gap_at_start.is_none() {
                 Err(Inapplicable::StartNotOnBoundary)
-            } else if !end_pole && mesh.gap(mesh.next(last)).is_none() {
+            } else if end != End::Pole && gap_at_end.is_none() {
                 Err(Inapplicable::EndNotOnBoundary)
+            } else if !is_told(start, gap_at_start, first) || !is_told(end, gap_at_end, last) {
+                Err(Inapplicable::NotClosed)
             } else {
                 Ok(())
             }
         }
     }
+}
+
+/// What is outside of a boundary edge: a loop or a seam. `None` of an inner edge.
+fn boundary_of(mesh: &QuadMesh, d: DartId) -> Option<Left> {
+    [d, mesh.twin(d)].into_iter().map(|d| mesh.left(d)).find(|left| left.is_outside())
 }
 
 /// Adds a strip along `path`, which must be [`applicable`], and gives its label.
@@ -75,9 +93,28 @@ pub fn applicable(mesh: &QuadMesh, path: &[DartId], course: Course) -> Result<()
 /// The result breaks no condition but possibly V2, which the caller checks.
 pub fn unzip(mesh: &mut QuadMesh, path: &[DartId], course: Course) -> StripId {
     let strip = mesh.push_strip();
-    let mut zipper = Zipper { mesh, path: path.to_vec(), strip, course };
+    let mut zipper = Zipper { mesh, path: path.to_vec(), strip, course, arrival: None };
     zipper.run();
     strip
+}
+
+/// What tells which side of a seam's end the new edge at the end of a strip lies on.
+#[derive(Clone, Copy)]
+struct Arrival {
+    end: End,
+    /// What is outside of the path's edge there; `None` if it comes from inside.
+    along: Option<Left>,
+}
+
+impl Arrival {
+    /// Whether the new edge goes on what lies before the seam's end, in the direction of the outside darts, not on what lies after.
+    /// From the wall it goes on the seam, from the seam on the wall, so that the new strip lies along what the path lay along.
+    fn is_before(self, before: Left, after: Left) -> bool {
+        match self.along {
+            Some(along) => along == after,
+            None => (before > after) == (self.end == End::OnSeam),
+        }
+    }
 }
 
 struct Zipper<'a> {
@@ -86,10 +123,14 @@ struct Zipper<'a> {
     path: Vec<DartId>,
     strip: StripId,
     course: Course,
+    /// While a regular end is split: how the path comes to it.
+    arrival: Option<Arrival>,
 }
 
 impl Zipper<'_> {
     fn run(&mut self) {
+        // What is outside of the edge opened last.
+        let mut along = None;
         let (mut front, stop) = match self.course {
             Course::Closed => {
                 // The last edge opens at its end V0 too; the triangle there is closed by the last step.
@@ -98,18 +139,23 @@ impl Zipper<'_> {
                 self.path[last] = to_start;
                 (self.split_start(Some(from_start)), 1)
             }
-            Course::Open { start_pole: false, .. } => {
-                let gap = self.mesh.gap(self.path[0]);
-                (self.split_start(gap), 0)
-            }
-            Course::Open { start_pole: true, .. } => {
+            Course::Open([End::Pole, _]) => {
+                along = boundary_of(self.mesh, self.path[0]);
                 let (leaving, front) = self.open(self.path[0]);
                 self.mesh.at(leaving).pole = true;
                 (front, 0)
             }
+            Course::Open([end, _]) => {
+                along = boundary_of(self.mesh, self.path[0]);
+                self.arrival = Some(Arrival { end, along });
+                let gap = self.mesh.gap(self.path[0]);
+                (self.split_start(gap), 0)
+            }
         };
+        self.arrival = None;
         let mut i = 1;
         while i + stop < self.path.len() {
+            along = boundary_of(self.mesh, self.path[i]);
             let (opened, next_front) = self.open(self.path[i]);
             self.split(opened, front, i);
             front = next_front;
@@ -117,9 +163,10 @@ impl Zipper<'_> {
         }
         match self.course {
             Course::Closed => self.split(self.path[i], front, i),
-            Course::Open { end_pole: true, .. } => self.mesh.at(front).pole = true,
-            Course::Open { end_pole: false, .. } => {
+            Course::Open([_, End::Pole]) => self.mesh.at(front).pole = true,
+            Course::Open([_, end]) => {
                 if let Some(gap) = self.mesh.gap(front) {
+                    self.arrival = Some(Arrival { end, along });
                     self.split(gap, front, i);
                 }
             }
@@ -174,12 +221,27 @@ impl Zipper<'_> {
         mesh.link(before_behind, to_left);
         mesh.link(to_left, behind);
 
-        // Of copies that both lie on the boundary the first in the direction of the outside darts takes the marks.
-        let right_is_first = mesh.is_outside(to_left);
-        if left_has_gap && !right_is_first {
-            move_marks(&mut mesh.marks, right, left);
+        let new_outside = [to_right, to_left].into_iter().find(|&d| mesh.is_outside(d));
+        let carrier = match new_outside {
+            Some(d) => self.settle(d),
+            None if left_has_gap => left,
+            None => right,
+        };
+        if carrier == left {
+            move_marks(&mut self.mesh.marks, right, left);
         }
         self.mend_path(i, to_right, to_left);
+    }
+
+    /// Of copies that both lie on the boundary, joined by this outside dart, the first in the direction of the outside darts takes the
+    /// marks; at the end of a seam the one where, as the path comes, the seam ends now.
+    fn settle(&mut self, d: DartId) -> VertexId {
+        let mesh = &mut *self.mesh;
+        let (before, after) = (mesh.left(mesh.prev(d)), mesh.left(mesh.next(d)));
+        let is_before =
+            before != after && self.arrival.is_some_and(|arrival| arrival.is_before(before, after));
+        mesh.at(d).left = if is_before { before } else { after };
+        if is_before { mesh.end(d) } else { mesh.origin(d) }
     }
 
     /// Inserts the transverse dart wherever two consecutive darts no longer meet, and at the end of an open path
@@ -197,7 +259,7 @@ impl Zipper<'_> {
             }
             j += 1;
         }
-        if let (Course::Open { end_pole: false, .. }, Some(&last)) = (self.course, self.path.last())
+        if let (Course::Open([_, End::Regular | End::OnSeam]), Some(&last)) = (self.course, self.path.last())
             && i < self.path.len()
         {
             let end = mesh.end(last);

@@ -10,6 +10,9 @@ use crate::search::EvaluatedRow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+/// A column that results of before do not have.
+const SYMMETRY: &str = "symmetry";
+
 /// Something that a table says otherwise than the rest of the folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Contradiction {
@@ -49,14 +52,15 @@ pub fn contradictions(folder: &Path, loaded: &Loaded) -> Result<Vec<Contradictio
 fn header(folder: &Path, name: &str, promised: &[String]) -> Result<Vec<Contradiction>, LoadError> {
     let path = folder.join(name);
     let found = Sheet::header(&path)?;
-    let missing: Vec<&str> = promised.iter().filter(|c| !found.contains(c)).map(String::as_str).collect();
+    let promised: Vec<&String> = promised.iter().filter(|c| *c != SYMMETRY || found.contains(c)).collect();
+    let missing: Vec<&str> = promised.iter().filter(|c| !found.contains(c)).map(|c| c.as_str()).collect();
     if !missing.is_empty() {
         let message = format!("line 1: columns are missing: {}", missing.join(", "));
         return Err(LoadError::Format { path, message });
     }
-    let places = (0..found.len()).filter(|&k| found.get(k) != promised.get(k));
+    let places = (0..found.len()).filter(|&k| found.get(k) != promised.get(k).copied());
     let told = places.map(|k| {
-        let expected = promised.get(k).map_or("no such column", String::as_str);
+        let expected = promised.get(k).map_or("no such column", |column| column.as_str());
         let message = format!("{name}: line 1, column {}: expected {expected}, found {}", k + 1, found[k]);
         Contradiction { code: None, message }
     });
@@ -73,7 +77,7 @@ fn rows(
     let of_rows = Sheet::each(folder, name, |record| {
         let (code, expected) = expect(record)?;
         let mut told = Vec::new();
-        for (column, cell) in header.iter().zip(&expected) {
+        for (column, cell) in header.iter().zip(&expected).filter(|(c, _)| *c != SYMMETRY || record.has(c)) {
             let (expected, found) = (written(column, cell, naming), record.text(column)?);
             if !same(&expected, found) && !same(&expected, &record.plain(column)?) {
                 let (line, id) = (record.line(), id(code));

@@ -7,7 +7,7 @@ use crate::search::EvaluatedRow;
 use std::io::{self, Write};
 
 /// The first columns of both files.
-pub const FIRST: [&str; 6] = ["id", "string", "expressed", "code", "generation", "feasible"];
+pub const FIRST: [&str; 7] = ["id", "string", "expressed", "code", "symmetry", "generation", "feasible"];
 /// The last columns of `history.csv`.
 pub const LAST: [&str; 3] = ["violation_stage", "violation", "reason"];
 
@@ -104,6 +104,7 @@ impl Columns {
             row.tokens.to_string().into(),
             row.expressed.to_string().into(),
             written(row.code).into(),
+            Cell::words(&row.symmetries.to_string()),
             u64::from(row.generation).into(),
             row.is_feasible().into(),
         ];
@@ -164,6 +165,7 @@ pub fn write_history(
 pub(super) mod tests {
     use super::*;
     use crate::evolve::Violation;
+    use crate::mesh::Symmetries;
 
     pub(crate) fn columns() -> Columns {
         Columns {
@@ -180,6 +182,7 @@ pub(super) mod tests {
             tokens: string.parse().unwrap(),
             expressed: string.parse().unwrap(),
             code: Code(u128::from(code) << 64),
+            symmetries: Symmetries::default(),
             violation,
             reason: if violation.is_feasible() { "".into() } else { "too weak, \"badly\"".into() },
             objectives: objectives.into(),
@@ -197,10 +200,10 @@ pub(super) mod tests {
         let text = String::from_utf8(pareto(&[&a, &b], &columns()).to_csv()).unwrap();
         assert_eq!(
             text,
-            "id,string,expressed,code,generation,feasible,mass_kg,curvature,buckling_factor,\
+            "id,string,expressed,code,symmetry,generation,feasible,mass_kg,curvature,buckling_factor,\
              deflection_combination,utilisation_combination,buckling_combination\n\
-             q000000000000,\"\",\"\",q0000000000000002,3,true,1.5,1,,,,\n\
-             q000000000000,ATA,ATA,q0000000000000001,3,true,2,0.5,,sls,uls,\n"
+             q000000000000,\"\",\"\",q0000000000000002,,3,true,1.5,1,,,,\n\
+             q000000000000,ATA,ATA,q0000000000000001,,3,true,2,0.5,,sls,uls,\n"
         );
     }
 
@@ -213,7 +216,7 @@ pub(super) mod tests {
         let line = text.lines().nth(1).unwrap();
         assert_eq!(
             line,
-            "qabc000000000,A*,A*,qabc0000000000000,3,false,1000000,0.125,,,,,1,0.25,\"too weak, \"\"badly\"\"\""
+            "qabc000000000,A*,A*,qabc0000000000000,,3,false,1000000,0.125,,,,,1,0.25,\"too weak, \"\"badly\"\"\""
         );
         assert!(
             text.lines().next().unwrap().ends_with("buckling_combination,violation_stage,violation,reason")

@@ -6,6 +6,7 @@ use super::manifest::{Counts, Manifest, Status};
 use crate::config::Config;
 use crate::evolve::Violation;
 use crate::io::table;
+use crate::mesh::Symmetries;
 use crate::mesh::canonical::Code;
 use crate::objectives::GOVERNING;
 use crate::search::{Breeding, EvaluatedRow, GenerationRow, Snapshot};
@@ -224,6 +225,10 @@ impl<'a> Record<'a> {
         LoadError::Format { path: self.sheet.path.clone(), message: format!("line {}: {message}", self.line) }
     }
 
+    pub(super) fn has(&self, column: &str) -> bool {
+        self.sheet.columns.contains_key(column)
+    }
+
     pub(super) fn text(&self, column: &str) -> Result<&'a str, LoadError> {
         let missing = || self.wrong(format!("column {column} is missing"));
         let index = self.sheet.columns.get(column).ok_or_else(missing)?;
@@ -256,7 +261,7 @@ impl<'a> Record<'a> {
 
 /// The evaluation that a line of `history.csv` or `pareto.csv` tells.
 pub(super) fn row(record: Record<'_>, columns: &Columns) -> Result<EvaluatedRow, LoadError> {
-    let [_, string, expressed, code, generation, _] = FIRST;
+    let [_, string, expressed, code, symmetry, generation, _] = FIRST;
     let [stage, measure, reason] = LAST;
     let bits = u64::from_str_radix(digits(record.text(code)?), 16).map_err(|_| {
         record.wrong(format!(
@@ -276,6 +281,11 @@ pub(super) fn row(record: Record<'_>, columns: &Columns) -> Result<EvaluatedRow,
         tokens: record.parse(string)?,
         expressed: record.parse(expressed)?,
         code: Code(u128::from(bits) << 64),
+        // Results of before have no such column.
+        symmetries: match record.has(symmetry) {
+            true => record.parse(symmetry)?,
+            false => Symmetries::default(),
+        },
         violation,
         reason: if in_history { record.text(reason)?.into() } else { "".into() },
         objectives: objectives.into_iter().collect::<Option<Vec<f64>>>().unwrap_or_default().into(),

@@ -131,6 +131,7 @@ mod tests {
             tokens: Default::default(),
             expressed: "ATTA".parse().unwrap(),
             code: Code(0),
+            symmetries: crate::mesh::Symmetries::default(),
             violation: Violation { stage, measure },
             reason: reason.into(),
             objectives: Vec::new().into(),

@@ -74,6 +74,7 @@ mod tests {
             code: Code(codes[0].0),
             neighbourhood: codes.iter().map(|&(code, i)| (Code(code), i)).collect(),
             expressed: Tokens::default(),
+            symmetries: crate::mesh::Symmetries::default(),
             rejected: None,
         }
     }

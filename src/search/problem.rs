@@ -2,6 +2,7 @@
 
 use crate::evolve::{FAILED, Fitness, Violation};
 use crate::grammar::Tokens;
+use crate::mesh::Symmetries;
 use crate::mesh::canonical::Code;
 use crate::random::Rng;
 
@@ -58,6 +59,8 @@ pub struct Identity {
     pub neighbourhood: Vec<(Code, u8)>,
     /// The expressed string.
     pub expressed: Tokens,
+    /// Which symmetries the design has.
+    pub symmetries: Symmetries,
     /// Why topology alone already rules the design out (pinched, flat faces), if it does. Such a design may be bred
     /// anew without being evaluated; [`Problem::evaluate`] must give the same violation and reason.
     pub rejected: Option<(Violation, String)>,

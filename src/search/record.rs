@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::problem::Evaluation;
 use crate::evolve::{Fitness, Violation};
 use crate::grammar::Tokens;
+use crate::mesh::Symmetries;
 use crate::mesh::canonical::Code;
 
 /// One evaluated design: a row of `history.csv`, and of `pareto.csv` if it is on the front.
@@ -20,6 +21,8 @@ pub struct EvaluatedRow {
     pub expressed: Tokens,
     /// Placed + reduced code: no two rows have the same.
     pub code: Code,
+    /// Which symmetries it has.
+    pub symmetries: Symmetries,
     /// Stage and measure of the failure; stage 0 = feasible.
     pub violation: Violation,
     /// What failed, in words; empty for a feasible design.

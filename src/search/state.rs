@@ -229,6 +229,7 @@ fn row_of(generation: u32, slot: usize, child: &Child, evaluation: Evaluation) -
         tokens: child.tokens.clone(),
         expressed: child.identity.expressed.clone(),
         code: child.identity.code,
+        symmetries: child.identity.symmetries,
         violation: evaluation.violation,
         reason: evaluation.reason.into(),
         objectives: evaluation.objectives.into(),

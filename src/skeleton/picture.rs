@@ -9,11 +9,17 @@ use std::fmt::Write as _;
 const SIZE: f64 = 800.0;
 const MARGIN: f64 = 30.0;
 
-/// The plan, y up. Orange: fewer edges than regular; blue: more; white: corners; green: the marker.
+/// The plan, y up. Orange: fewer edges than regular; blue: more; white: corners; green: the marker. Dashed: `seams`, each as the places of
+/// its two ends, m.
 ///
 /// # Errors
 /// A mesh that is not valid.
-pub fn svg(base: &BaseMesh, domain: &Domain, title: &str) -> Result<String, BaseMeshError> {
+pub fn svg(
+    base: &BaseMesh,
+    domain: &Domain,
+    title: &str,
+    seams: &[[[f64; 3]; 2]],
+) -> Result<String, BaseMeshError> {
     let mesh = InitialMesh::from_base(base)?;
     let [low, high] = domain.bounds();
     let scale = SIZE / (high[0] - low[0]).max(high[1] - low[1]);
@@ -36,6 +42,13 @@ pub fn svg(base: &BaseMesh, domain: &Domain, title: &str) -> Result<String, Base
         let points = boundary.sample(domain.size() / 300.0);
         let outline = path(points.iter().map(|&s| at(&boundary.point(s))));
         let _ = writeln!(text, "<path class=\"boundary\" d=\"{outline}Z\"/>");
+    }
+    for seam in seams {
+        let line = path(seam.iter().map(at));
+        let _ = writeln!(
+            text,
+            "<path fill=\"none\" stroke=\"#c2185b\" stroke-width=\"3\" stroke-dasharray=\"9 6\" d=\"{line}\"/>"
+        );
     }
     let (from, to) = (mesh.mesh.origin(mesh.marker).index(), mesh.mesh.end(mesh.marker).index());
     let ([x, y], [u, v]) = (at(&base.vertices[from]), at(&base.vertices[to]));

@@ -160,6 +160,7 @@ fn design(i: usize, panels: usize, rng: &mut Rng) -> Design {
             boundary: BTreeMap::from([(2, 4)]),
             poles: usize::from(kind == 2),
         }),
+        symmetry: ["mirror-x", "", "mirror-x mirror-y rotate-2"][kind].to_owned(),
         family: None,
         mesh: Some(mesh),
     }

@@ -76,7 +76,13 @@ impl Problem for Counting {
         }
         let many = counts[5] > 3 || (self.fragile && counts[0] % 2 == 1);
         let rejected = many.then(|| (Violation::new(4, counts[5] as f64), "too many".to_owned()));
-        Identity { code: Self::code(&counts), neighbourhood, expressed, rejected }
+        Identity {
+            code: Self::code(&counts),
+            neighbourhood,
+            expressed,
+            symmetries: Default::default(),
+            rejected,
+        }
     }
 
     fn evaluate(&self, tokens: &Tokens) -> Evaluation {

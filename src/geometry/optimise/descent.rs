@@ -1,7 +1,7 @@
 //! L-BFGS (Nocedal, Wright, *Numerical Optimization*, algorithms 7.4 and 7.5) from the inverse of the mesh's Laplacian, with
 //! backtracking.
 
-use super::net::{Freedom, Net, Places};
+use super::net::{Freedom, Net, Of, Places};
 use crate::geometry::sparse::{Factor, Symmetric, fill_reducing_order};
 use std::collections::VecDeque;
 
@@ -63,6 +63,7 @@ pub fn descend(net: &Net<'_>, energy: &mut dyn Energy, x: &mut Vec<f64>, bounds:
     while steps < bounds.iterations {
         let mut direction = direction(net, &gradient, &solved, &pairs);
         energy.make_tangential(&mut direction);
+        net.even(&mut direction, Of::Direction);
         let slope = inner(&direction, &gradient);
         let found = if slope < 0.0 {
             steps += 1;

@@ -2,7 +2,9 @@
 //! neither the scale nor the place of a domain decides anything (docs/reference/geometry.md §6).
 
 use crate::domain::{BoundaryLoop, Domain};
+use crate::geometry::images::Image;
 use crate::geometry::vector::{Vec3, scale, sub};
+use crate::mesh::quad_mesh::Left;
 use crate::surface::{Surface, SurfaceKind};
 use std::cell::OnceCell;
 
@@ -16,6 +18,8 @@ pub struct Ground<'a> {
     unit: f64,
     /// One for each boundary loop.
     pub rails: Vec<Rail<'a>>,
+    /// Symmetries that patterns on it are kept to.
+    pub images: Vec<Image>,
 }
 
 impl<'a> Ground<'a> {
@@ -26,7 +30,20 @@ impl<'a> Ground<'a> {
         let origin = [middle[0], middle[1], domain.loops[0].point(0.0)[2]];
         let rail = |(curve, flat): (&'a BoundaryLoop, &'a BoundaryLoop)| Rail::new(curve, flat, middle, unit);
         let rails = domain.loops.iter().zip(&domain.plan_loops).map(rail).collect();
-        Self { surface, domain, origin, unit, rails }
+        Self { surface, domain, origin, unit, rails, images: Vec::new() }
+    }
+
+    /// The same for patterns that are kept to symmetries of their design.
+    pub fn with_images(self, images: Vec<Image>) -> Self {
+        Self { images, ..self }
+    }
+
+    /// Where a symmetry takes the plan lengths of a loop: the label of its image, and `c` and ±1 for q → c ± q.
+    pub fn rail_image(&self, image: &Image, label: usize) -> (usize, f64, f64) {
+        let to = image.symmetry.left(Left::outside(label as u32)).as_loop().map_or(label, |to| to as usize);
+        let start = self.domain.image(self.rails[label].flat.point(0.0), image.kind);
+        let at_start = self.rails[to].flat.closest(start) / self.unit;
+        (to, at_start, if image.symmetry.reversed { -1.0 } else { 1.0 })
     }
 
     /// Whether points are brought back vertically.

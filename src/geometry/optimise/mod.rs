@@ -23,6 +23,7 @@ use super::corners::LoopCorners;
 use super::dense::panel_count;
 use super::density::{self, Fineness};
 use super::develop::Shaped;
+use super::images;
 use super::limits::{self, Extremes, Limits};
 use super::rejection::Rejection;
 use super::untangle::untangle;
@@ -201,7 +202,14 @@ impl<'a> Optimiser<'a> {
         let lengths: Vec<f64> = rungs.iter().map(Rungs::mean).collect();
         let bounds =
             rows::bounds(self.task.coarse, self.ground, sheet, self.task.aims, &self.caps, COARSENESS.sqrt());
-        density::choose(self.task.coarse, &lengths, Fineness::Panels(self.task.panels / COARSENESS), &bounds)
+        let fineness = Fineness::Panels(self.task.panels / COARSENESS);
+        self.evened(density::choose(self.task.coarse, &lengths, fineness, &bounds))
+    }
+
+    /// Equal for strips that are images of each other. So they are but where lengths that should be equal differ by more than rounding.
+    fn evened(&self, mut rows: Vec<u32>) -> Vec<u32> {
+        images::even_rows(self.task.coarse, &self.ground.images, &mut rows);
+        rows
     }
 
     /// Rows of the pattern itself; `at_least` besides what corners and sides ask for.
@@ -216,7 +224,7 @@ impl<'a> Optimiser<'a> {
             Fineness::Panels(panels) => Fineness::Panels(panels),
             Fineness::Width(width) => Fineness::Width(width / self.task.limits.target_length),
         };
-        density::choose(self.task.coarse, &lengths, fineness, &bounds)
+        self.evened(density::choose(self.task.coarse, &lengths, fineness, &bounds))
     }
 
     fn check_count(&self, rows: &[u32]) -> Result<(), Rejection> {

@@ -2,7 +2,7 @@
 //! for each boundary vertex that takes no corner (docs/reference/geometry.md §6.3).
 
 use super::ground::{Foot, Ground};
-use super::sheet::{NO_CORNER, Sheet, State};
+use super::sheet::{NO_CORNER, Sheet, State, Twin};
 use crate::geometry::sparse::Factor;
 use crate::geometry::vector::{Vec3, add, dot, scale};
 use std::cell::OnceCell;
@@ -45,6 +45,25 @@ impl Slider {
         let is_straight = range[0].is_finite() && rail.is_straight(range[0], range[1]);
         Self { vertex, label, range, ends, is_straight }
     }
+}
+
+/// What the unknowns stand for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Of {
+    /// Where vertices are.
+    Places,
+    /// Which way they go.
+    Direction,
+}
+
+/// The mean of a value and its images, added in pairs, so that every image gets the same: of two mirrors and the half turn, the value
+/// and one mirror's, then the other two.
+fn mean_of(own: f64, twins: &[Twin], image: impl Fn(&Twin) -> f64) -> f64 {
+    let sum = match twins {
+        [a, b, c] => (own + image(a)) + (image(b) + image(c)),
+        _ => twins.iter().fold(own, |sum, twin| sum + image(twin)),
+    };
+    sum / (twins.len() + 1) as f64
 }
 
 /// An edge of the pattern's boundary, counter-clockwise.
@@ -151,7 +170,48 @@ impl<'a> Net<'a> {
                 }
             }
         }
+        self.even(&mut x, Of::Places);
         x
+    }
+
+    /// Makes unknowns, or a direction, as symmetric as the sheet is to be: each the mean over its images.
+    pub fn even(&self, x: &mut [f64], of: Of) {
+        let twins = &self.sheet.twins;
+        if twins.is_empty() {
+            return;
+        }
+        let given = x.to_vec();
+        for (v, freedom) in self.freedom.iter().enumerate() {
+            let Freedom::Inner(at) = *freedom else { continue };
+            for k in 0..self.width {
+                let image = |twin: &Twin| match self.freedom[twin.vertices[v] as usize] {
+                    Freedom::Inner(there) => twin.signs.get(k).copied().unwrap_or(1.0) * given[there + k],
+                    _ => given[at + k],
+                };
+                x[at + k] = mean_of(given[at + k], twins, image);
+            }
+        }
+        for (i, slider) in self.sliders.iter().enumerate() {
+            let at = self.inner_unknowns + i;
+            let image = |twin: &Twin| {
+                let Freedom::Slider(there) = self.freedom[twin.vertices[slider.vertex as usize] as usize]
+                else {
+                    return given[at];
+                };
+                // Of the image's plan length q the one here that it is the image of is c ± q again: twins are their own inverse.
+                let from = self.sliders[there - self.inner_unknowns].label;
+                let (_, c, sign) = twin.loops[from];
+                match of {
+                    Of::Direction => sign * given[there],
+                    Of::Places => {
+                        let turn = self.sheet.loop_lengths[slider.label];
+                        let more = c + sign * given[there] - given[at];
+                        given[at] + (more - turn * libm::round(more / turn))
+                    }
+                }
+            };
+            x[at] = mean_of(given[at], twins, image);
+        }
     }
 
     /// Room for positions.
@@ -330,6 +390,7 @@ impl<'a> Net<'a> {
 
     /// The sheet's positions and arc lengths for given unknowns.
     pub fn state(&self, mut x: Vec<f64>) -> State {
+        self.even(&mut x, Of::Places);
         let mut places = self.places();
         self.place(&mut x, &mut places);
         let along =

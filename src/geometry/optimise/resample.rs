@@ -44,7 +44,7 @@ pub fn resample(coarse: &Coarse<'_>, ground: &Ground<'_>, old: &Sheet, parts: &[
             *point = ground.onto(pushed_in(ground, *point));
         }
     }
-    Sheet::new(dense, points, loops, old.loop_lengths.clone())
+    Sheet::new(ground, dense, points, loops, old.loop_lengths.clone())
 }
 
 /// A place among `old` parts: before which, and the share of it.

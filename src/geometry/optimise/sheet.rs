@@ -6,6 +6,7 @@ use super::net::Link;
 use crate::geometry::boundary::{self, BoundaryLoop};
 use crate::geometry::coarse::Coarse;
 use crate::geometry::dense::{Dense, Edges};
+use crate::geometry::images;
 use crate::geometry::pattern::{Panel, Pattern};
 use crate::geometry::vector::Vec3;
 
@@ -31,6 +32,18 @@ pub struct Sheet {
     pub loop_lengths: Vec<f64>,
     /// Arc length of each boundary vertex along its rail, local units; 0 of an inner one.
     pub station: Vec<f64>,
+    /// Where the symmetries take it that it is kept to.
+    pub twins: Vec<Twin>,
+}
+
+/// Where a symmetry takes the vertices of a sheet and the plan lengths of its boundary.
+pub struct Twin {
+    /// The image of each vertex.
+    pub vertices: Vec<u32>,
+    /// What x and y are multiplied by.
+    pub signs: [f64; 2],
+    /// For each loop, its image, and `c` and ±1 for q → c ± q.
+    pub loops: Vec<(usize, f64, f64)>,
 }
 
 /// A boundary loop on its rail.
@@ -83,15 +96,29 @@ impl Sheet {
             first_corner += placed.corners.len() as u32;
         }
         let lengths = ground.rails.iter().map(|rail| rail.length).collect();
-        Self::new(dense, points, held, lengths)
+        Self::new(ground, dense, points, held, lengths)
     }
 
     /// A mesh with its positions.
-    pub fn new(dense: Dense, points: Vec<Vec3>, loops: Vec<Held>, loop_lengths: Vec<f64>) -> Self {
+    pub fn new(
+        ground: &Ground<'_>,
+        dense: Dense,
+        points: Vec<Vec3>,
+        loops: Vec<Held>,
+        loop_lengths: Vec<f64>,
+    ) -> Self {
         let edges = Edges::of(dense.vertex_count, &dense.panels);
         let quads = dense.panels.iter().map(Panel::as_quad).collect();
         let station = vec![0.0; points.len()];
-        let mut sheet = Self { edges, quads, station, points, loops, loop_lengths, dense };
+        let twins = ground.images.iter().map(|image| {
+            Some(Twin {
+                vertices: image.of_dense(dense.vertex_count, &dense.panels, &dense.loops)?,
+                signs: image.kind.signs(),
+                loops: (0..loops.len()).map(|label| ground.rail_image(image, label)).collect(),
+            })
+        });
+        let twins = twins.collect::<Option<Vec<Twin>>>().unwrap_or_default();
+        let mut sheet = Self { edges, quads, station, points, loops, loop_lengths, dense, twins };
         sheet.note_stations();
         sheet
     }
@@ -228,7 +255,7 @@ impl Sheet {
             loops.push(vertices);
             stations.push(ground.rails[label].turned(&along[label], first));
         }
-        Pattern {
+        let mut pattern = Pattern {
             positions,
             panels: self.dense.panels.clone(),
             edges: self.edges.list.clone(),
@@ -239,6 +266,8 @@ impl Sheet {
             coarse: (0..task.coarse.mesh.vertex_count as u32).collect(),
             coarse_face: self.dense.coarse_face.clone(),
             target_length: task.limits.target_length,
-        }
+        };
+        images::even_out(&mut pattern, &ground.images, task.domain, task.surface);
+        pattern
     }
 }

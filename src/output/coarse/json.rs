@@ -1,7 +1,7 @@
 //! The JSON of `decode`; what it says of the mesh loads again as a base mesh.
 
 use super::{Reading, Singularities, faces, singularities};
-use crate::grammar::Effect;
+use crate::grammar::{Decoded, Effect};
 use crate::mesh::code::{code, rooted_code};
 use crate::mesh::{DartId, Equivalence, QuadMesh, strips};
 use serde::Serialize;
@@ -25,6 +25,44 @@ struct Document {
     code_placed: String,
     code_placed_reduced: String,
     code_marker: String,
+    /// The part that was decoded, where patterns are to be symmetric.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    part: Option<Part>,
+}
+
+/// A part of a symmetric mesh.
+#[derive(Serialize)]
+struct Part {
+    vertices: Vec<[f64; 3]>,
+    faces: Vec<Vec<u32>>,
+    poles: BTreeMap<usize, u32>,
+    marker: [u32; 2],
+    corners: Vec<Vec<u32>>,
+    strips: Vec<Strip>,
+    /// The edges of each fold's seams.
+    seams: BTreeMap<u32, Vec<[u32; 2]>>,
+}
+
+impl Part {
+    fn of(decoded: &Decoded) -> Self {
+        let mesh = &decoded.mesh;
+        let edge = |d: DartId| [mesh.origin(d).0, mesh.end(d).0];
+        let mut seams: BTreeMap<u32, Vec<[u32; 2]>> = BTreeMap::new();
+        for d in mesh.darts() {
+            if let Some(fold) = mesh.left(d).as_seam() {
+                seams.entry(fold).or_default().push(edge(d));
+            }
+        }
+        Self {
+            vertices: mesh.positions().to_vec(),
+            faces: faces(mesh),
+            poles: poles(mesh),
+            marker: edge(decoded.marker),
+            corners: corners(mesh),
+            strips: strips(mesh),
+            seams,
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -84,7 +122,7 @@ pub fn json(reading: Reading<'_>) -> Result<String, serde_json::Error> {
         faces: faces(mesh),
         poles: poles(mesh),
         marker: [origin(decoded.marker), mesh.end(decoded.marker).0],
-        corners: mesh.corners().iter().map(|carriers| carriers.iter().map(|v| v.0).collect()).collect(),
+        corners: corners(mesh),
         loops: loops(mesh),
         string: reading.string.to_string(),
         expressed: decoded.expressed.to_string(),
@@ -98,8 +136,13 @@ pub fn json(reading: Reading<'_>) -> Result<String, serde_json::Error> {
         code_placed: code(mesh, true).to_string(),
         code_placed_reduced: equivalence.code(mesh).to_string(),
         code_marker: rooted_code(mesh, decoded.marker, false).to_string(),
+        part: reading.part.map(Part::of),
     };
     serde_json::to_string(&document)
+}
+
+fn corners(mesh: &QuadMesh) -> Vec<Vec<u32>> {
+    mesh.corners().iter().map(|carriers| carriers.iter().map(|v| v.0).collect()).collect()
 }
 
 fn poles(mesh: &QuadMesh) -> BTreeMap<usize, u32> {

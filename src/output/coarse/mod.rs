@@ -20,8 +20,10 @@ use std::collections::BTreeMap;
 pub struct Reading<'a> {
     /// The string as given.
     pub string: &'a Tokens,
-    /// What it means.
+    /// What it means: the whole mesh and the marker on it.
     pub decoded: &'a Decoded,
+    /// The part that it was decoded on, with the marker there, where patterns are to be symmetric.
+    pub part: Option<&'a Decoded>,
 }
 
 /// The irregular vertices of a mesh, counted by valence.

@@ -2,6 +2,7 @@
 
 use super::Reading;
 use super::layout::layout;
+use crate::grammar::Decoded;
 use crate::mesh::strips::{self, StripChain};
 use crate::mesh::{DartId, QuadMesh};
 use crate::output::number::rounded;
@@ -13,6 +14,7 @@ const MARGIN: f64 = 36.0;
 
 const STYLE: &str = "\
 .edges{fill:none;stroke:#8a8378;stroke-width:1.2}.boundary{fill:none;stroke:#111;stroke-width:2.6}\
+.seam{fill:none;stroke:#111;stroke-width:2.6;stroke-dasharray:7 5}\
 .strip{fill:none;stroke-width:7;stroke-linecap:round;stroke-linejoin:round;opacity:.55}\
 .less{fill:#d55e00}.more{fill:#0072b2}.pole{fill:#111}.less,.more,.pole{stroke:#fff;stroke-width:1.5}\
 .marker{fill:none;stroke:#c2185b;stroke-width:4}.head{fill:#c2185b}\
@@ -52,31 +54,46 @@ impl Drawing {
     }
 }
 
-/// A picture of the coarse mesh. A singular vertex is orange with fewer edges than a regular one, blue with more,
+/// A picture of the coarse mesh; of a symmetric one the part that was decoded and, beside it, the whole. A singular vertex is orange with fewer edges than a regular one, blue with more,
 /// black if it is a pole; small numbers beside the boundary are the corners of the domain.
 pub fn svg(reading: Reading<'_>) -> String {
-    let mesh = &reading.decoded.mesh;
-    let drawing = Drawing::of(mesh);
+    let whole = Drawing::of(&reading.decoded.mesh);
+    let part = reading.part.map(|part| (part, Drawing::of(&part.mesh)));
+    let aside = part.as_ref().map_or(0.0, |(_, drawing)| drawing.width);
+    let height = part.as_ref().map_or(0.0, |(_, drawing)| drawing.height).max(whole.height);
     let mut text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" role=\"img\">\n\
          <title>{}</title>\n<style>{STYLE}</style>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
-        rounded(drawing.width, 1),
-        rounded(drawing.height, 1),
+        rounded(aside + whole.width, 1),
+        rounded(height, 1),
         reading.string
     );
-    let chains = strips::all(mesh);
-    for (k, chain) in chains.iter().enumerate() {
-        draw_strip(&mut text, mesh, &drawing, chain, k);
+    match &part {
+        None => draw(&mut text, reading.decoded, &whole),
+        Some((part, drawing)) => {
+            draw(&mut text, part, drawing);
+            let _ = writeln!(text, "<g transform=\"translate({} 0)\">", rounded(aside, 1));
+            draw(&mut text, reading.decoded, &whole);
+            text.push_str("</g>\n");
+        }
     }
-    draw_edges(&mut text, mesh, &drawing);
-    for chain in &chains {
-        label_strip(&mut text, mesh, &drawing, chain);
-    }
-    draw_marker(&mut text, mesh, &drawing, reading.decoded.marker);
-    draw_singularities(&mut text, mesh, &drawing);
-    name_corners(&mut text, mesh, &drawing);
     text.push_str("</svg>\n");
     text
+}
+
+fn draw(text: &mut String, decoded: &Decoded, drawing: &Drawing) {
+    let mesh = &decoded.mesh;
+    let chains = strips::all(mesh);
+    for (k, chain) in chains.iter().enumerate() {
+        draw_strip(text, mesh, drawing, chain, k);
+    }
+    draw_edges(text, mesh, drawing);
+    for chain in &chains {
+        label_strip(text, mesh, drawing, chain);
+    }
+    draw_marker(text, mesh, drawing, decoded.marker);
+    draw_singularities(text, mesh, drawing);
+    name_corners(text, mesh, drawing);
 }
 
 /// A line along the middle of the strip, to its poles.
@@ -115,12 +132,17 @@ fn label_strip(text: &mut String, mesh: &QuadMesh, drawing: &Drawing, chain: &St
 }
 
 fn draw_edges(text: &mut String, mesh: &QuadMesh, drawing: &Drawing) {
-    for (class, boundary) in [("edges", false), ("boundary", true)] {
-        let darts = mesh.darts().filter(|&d| {
-            let twin = mesh.twin(d);
-            let on_boundary = mesh.is_outside(d) || mesh.is_outside(twin);
-            d < twin && on_boundary == boundary
-        });
+    let class_of = |d: DartId| {
+        let outside = [d, mesh.twin(d)].map(|d| mesh.left(d)).into_iter().find(|left| left.is_outside());
+        match outside {
+            Some(left) if left.as_seam().is_some() => "seam",
+            Some(_) => "boundary",
+            None => "edges",
+        }
+    };
+    let classes = ["edges", "boundary", "seam"].into_iter();
+    for class in classes.filter(|&class| class != "seam" || mesh.is_folded()) {
+        let darts = mesh.darts().filter(|&d| d < mesh.twin(d) && class_of(d) == class);
         let lines: Vec<String> =
             darts.map(|d| path(&[drawing.origin(mesh, d), drawing.origin(mesh, mesh.twin(d))])).collect();
         let _ = writeln!(text, "<path class=\"{class}\" d=\"{}\"/>", lines.join(" "));

@@ -1,12 +1,13 @@
 //! A decoded string told in words.
 
 use super::{Reading, singularities};
-use crate::grammar::Effect;
+use crate::grammar::{Decoded, Effect};
 use crate::mesh::{Equivalence, QuadMesh, strips};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-/// The trace one token a line, then the mesh, its singular vertices, its loops and its strips.
+/// The trace one token a line, then the mesh, its singular vertices, its loops and its strips; of a symmetric one first the part that was
+/// decoded, then the whole.
 pub fn text(reading: Reading<'_>) -> String {
     let decoded = reading.decoded;
     let mesh = &decoded.mesh;
@@ -22,6 +23,23 @@ pub fn text(reading: Reading<'_>) -> String {
     for (i, (token, effect)) in reading.string.iter().zip(&decoded.trace).enumerate() {
         let _ = writeln!(text, "  {i:>3}  {:<2}  {}", token.as_str(), told(effect));
     }
+    if let Some(part) = reading.part {
+        text.push_str("\npart that is decoded, with seams along which it goes on in its image; the trace names its strips");
+        tell_mesh(&mut text, part);
+        tell_seams(&mut text, &part.mesh);
+        tell_strips(&mut text, &part.mesh);
+        text.push_str("\nwhole mesh, unfolded");
+    }
+    tell_mesh(&mut text, decoded);
+    let _ = writeln!(text, "code       {} (placed and reduced)", Equivalence::default().code(mesh));
+    tell_singularities(&mut text, mesh);
+    tell_loops(&mut text, mesh);
+    tell_strips(&mut text, mesh);
+    text
+}
+
+fn tell_mesh(text: &mut String, decoded: &Decoded) {
+    let mesh = &decoded.mesh;
     let _ = write!(
         text,
         "\nmesh       {} vertices, {} edges, {} faces, Euler characteristic {}\nmarker     from vertex {} to {}\n",
@@ -32,11 +50,20 @@ pub fn text(reading: Reading<'_>) -> String {
         mesh.origin(decoded.marker).0,
         mesh.end(decoded.marker).0,
     );
-    let _ = writeln!(text, "code       {} (placed and reduced)", Equivalence::default().code(mesh));
-    tell_singularities(&mut text, mesh);
-    tell_loops(&mut text, mesh);
-    tell_strips(&mut text, mesh);
-    text
+}
+
+/// The seams of each fold, edge by edge.
+fn tell_seams(text: &mut String, mesh: &QuadMesh) {
+    let mut seams: BTreeMap<u32, Vec<String>> = BTreeMap::new();
+    for d in mesh.darts() {
+        if let Some(fold) = mesh.left(d).as_seam() {
+            let edge = format!("{}-{}", mesh.origin(d).0, mesh.end(d).0);
+            seams.entry(fold).or_default().push(edge);
+        }
+    }
+    for (fold, edges) in seams {
+        let _ = writeln!(text, "seam {fold}     {}", edges.join(" "));
+    }
 }
 
 fn told(effect: &Effect) -> String {

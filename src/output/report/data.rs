@@ -88,6 +88,8 @@ pub struct Design {
     pub values: Vec<Option<f64>>,
     /// Irregular vertices of its topology, by which designs are grouped into families; `None` if not known.
     pub singularities: Option<Singularities>,
+    /// Reflections and rotations of the domain that map it onto itself, as in the column `symmetry`; empty if there are none.
+    pub symmetry: String,
     /// Number of its family where singularities alone make too many: designs a few strips apart.
     pub family: Option<usize>,
     /// Its dense mesh with results; without one the design has no picture.

@@ -154,6 +154,7 @@ impl Shown {
             reason: (!row.reason.is_empty()).then(|| row.reason.to_string()),
             values: self.places.iter().map(|&place| row.metrics.get(place)).collect(),
             singularities: self.study.as_ref().map(|study| singularities(&study.decode(&row.tokens).mesh)),
+            symmetry: row.symmetries.to_string(),
             family: None,
             mesh: None,
         };

@@ -8,6 +8,7 @@ use super::super::record::EvaluatedRow;
 use super::super::state::Indexed;
 use crate::evolve::Violation;
 use crate::grammar::Tokens;
+use crate::mesh::Symmetries;
 use crate::mesh::canonical::Code;
 
 /// A line of the journal.
@@ -22,6 +23,9 @@ pub(super) struct Entry {
     expressed: Tokens,
     #[serde(with = "hex")]
     code: Code,
+    /// Left out where it has none.
+    #[serde(default, with = "text", skip_serializing_if = "is_unsymmetric")]
+    symmetries: Symmetries,
     /// Equivalence codes and their numbers of deletions; left out where it is the code alone.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     nearby: Vec<Nearby>,
@@ -50,6 +54,7 @@ impl Entry {
             tokens: child.tokens.clone(),
             expressed: identity.expressed.clone(),
             code: identity.code,
+            symmetries: identity.symmetries,
             nearby: if plain { Vec::new() } else { nearby.collect() },
             violation: evaluation.violation,
             reason: evaluation.reason,
@@ -83,6 +88,7 @@ impl Entry {
             tokens: self.tokens,
             expressed: self.expressed,
             code: self.code,
+            symmetries: self.symmetries,
             violation: self.violation,
             reason: self.reason.into(),
             objectives: self.objectives.into(),
@@ -94,18 +100,25 @@ impl Entry {
     }
 }
 
-/// Strings as they are printed.
+fn is_unsymmetric(symmetries: &Symmetries) -> bool {
+    *symmetries == Symmetries::default()
+}
+
+/// Strings and symmetries as they are printed.
 pub(crate) mod text {
     use serde::de::Error;
     use serde::{Deserialize, Deserializer, Serializer};
+    use std::fmt::Display;
+    use std::str::FromStr;
 
-    use crate::grammar::Tokens;
-
-    pub(crate) fn serialize<S: Serializer>(tokens: &Tokens, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_str(tokens)
+    pub(crate) fn serialize<S: Serializer>(value: &impl Display, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(value)
     }
 
-    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Tokens, D::Error> {
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>, T>(deserializer: D) -> Result<T, D::Error>
+    where
+        T: FromStr<Err: Display>,
+    {
         String::deserialize(deserializer)?.parse().map_err(D::Error::custom)
     }
 }
