@@ -6,7 +6,7 @@
 //! both combinations, buckling, metrics, requirements; order 2 with its proof of stability.
 #![allow(clippy::print_stdout, clippy::unwrap_used, missing_docs, reason = "a bench talks, and fails aloud")]
 
-#[path = "../tests/frame_support/mod.rs"]
+#[path = "../tests/structure/support.rs"]
 mod frame_support;
 
 use frame_support::grid_shell;

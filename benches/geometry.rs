@@ -3,7 +3,7 @@
 //! optimised cost no more than smoothed).
 #![allow(missing_docs, clippy::unwrap_used, reason = "criterion's macros; fixed inputs")]
 
-#[path = "../tests/geometry_support/mod.rs"]
+#[path = "../tests/geometry/support.rs"]
 mod geometry_support;
 
 use criterion::{BatchSize, Criterion, criterion_group, criterion_main};

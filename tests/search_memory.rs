@@ -1,10 +1,11 @@
 //! Memory per evaluated design. A test file of its own, because it measures its whole process.
 
-mod search;
+#[path = "search/support.rs"]
+mod support;
 
 use quadrille::search::params::TokenBounds;
 
-use search::{Counting, run_silently, settings};
+use support::{Counting, run_silently, settings};
 
 /// Resident memory of this process, bytes.
 #[cfg(target_os = "linux")]

@@ -8,7 +8,7 @@ use std::fmt::Write;
 const HEAD: &str = "\
 # Config reference
 
-Written by the program from its own types (`tests/config_reference.rs` keeps it true). A config is one TOML file; paths
+Written by the program from its own types (`tests/program/config_reference.rs` keeps it true). A config is one TOML file; paths
 in it are relative to it; every key has its unit in its name; a key that is not listed here is an error. *Default* is
 what holds when the key is absent; only what is *required* must be there. `quadrille check CONFIG.toml` prints a config
 with all defaults filled in, `quadrille init` writes a commented one to start from, and `--set key=value` sets a key

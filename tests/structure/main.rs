@@ -1,0 +1,13 @@
+//! The frame solver and the gridshell model made of patterns.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+mod cable_net;
+mod cases;
+mod cli;
+mod faults;
+mod gridshell;
+mod laws;
+mod robust;
+mod sizing;
+mod support;
+mod textbook;
