@@ -10,8 +10,10 @@ mod path;
 mod project;
 mod reference;
 mod resolved;
+mod retired;
 mod rules;
 mod schema;
+pub mod seeds;
 mod source;
 
 pub use describe::{describe, warnings};

@@ -1,6 +1,6 @@
 //! A config with its defaults: written back, hashed, compared.
 
-use super::{Config, KeyPath, names};
+use super::{Config, KeyPath, names, seeds};
 use crate::geometry::params::{FREE_SWEEPS, RelaxKind};
 use crate::io::{Inputs, sha256};
 use crate::structure::params::{HeightParams, SectionParams, StructureParams};
@@ -60,7 +60,9 @@ pub fn hash(config: &Config) -> String {
 
 /// The files that a config names, relative to its folder.
 pub fn input_files(config: &Config) -> Vec<PathBuf> {
-    [config.domain.files(), config.surface.files(), config.topology.files()].concat()
+    let mut files = [config.domain.files(), config.surface.files(), config.topology.files()].concat();
+    files.extend(seeds::file(&config.search.seeds));
+    files
 }
 
 /// Reads the files that a config names; `folder` is where relative paths start.

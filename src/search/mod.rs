@@ -6,6 +6,8 @@
 mod breeding;
 mod driver;
 mod known;
+mod local;
+mod near;
 mod normalise;
 mod observer;
 pub mod operators;
@@ -25,7 +27,7 @@ pub use normalise::{ENOUGH, Normalisation, quantile};
 pub use observer::{Observer, Progress, Silent};
 pub use outcome::{Ended, Outcome};
 pub use params::{ObjectivesParams, SearchParams};
-pub use problem::{Evaluation, Identity, Preview, Problem, RuleOperator, round_significant};
+pub use problem::{Evaluation, Identity, Preview, Problem, RuleOperator, Steps, round_significant};
 pub use record::{Breeding, EvaluatedRow, GenerationRow, Metrics, OperatorCount};
 pub use server::{Server, ThreadServer, evaluate};
 pub use state::Settings;
