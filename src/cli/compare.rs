@@ -1,7 +1,7 @@
 //! Designs side by side: all metrics, absolute and normalised by the largest, non-dominated ones marked.
 
 use super::CliError;
-use quadrille::evolve::{Domination, compare_objectives};
+use quadrille::evolve::{Domination, compare_objectives, visible};
 use quadrille::geometry::Pattern;
 use quadrille::grammar::Tokens;
 use quadrille::mesh::{CanonicalMesh, Code, Symmetries};
@@ -92,12 +92,13 @@ impl Comparison {
         })
     }
 
-    /// Whether no other feasible design is at least as good in all objectives and better in one.
+    /// Whether no other feasible design is at least as good in all objectives and better in one, to six digits as on a front.
     pub fn is_non_dominated(&self, index: usize) -> bool {
         let own = &self.entries[index].evaluation;
+        let values = visible(&own.objectives);
         let better = |other: &Entry| {
             other.evaluation.violation.is_feasible()
-                && compare_objectives(&other.evaluation.objectives, &own.objectives) == Domination::First
+                && compare_objectives(&visible(&other.evaluation.objectives), &values) == Domination::First
         };
         own.violation.is_feasible() && !self.entries.iter().any(better)
     }

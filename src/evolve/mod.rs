@@ -20,7 +20,7 @@ pub use crowding::crowding_distance;
 pub use dependence::{Redundancy, redundancies};
 pub use domination::{Domination, FAILED, Fitness, Violation, compare, compare_objectives};
 pub use hypervolume::hypervolume;
-pub use nondominated::NonDominated;
+pub use nondominated::{NonDominated, visible};
 pub use sampled::{LOWER_CORNER, SAMPLES, SampledHypervolume};
 pub use selection::{Standing, standings, survive, survive_by_contribution, tournament};
 pub use sorting::fronts;

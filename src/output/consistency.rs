@@ -2,16 +2,19 @@
 
 use super::designs::{Columns, Naming, id};
 use super::folder::{HISTORY, PARETO};
+use super::front::{self, Standing};
 use super::load::{LoadError, Loaded, Record, Sheet, row};
 use super::table::Cell;
-use crate::evolve::NonDominated;
+use crate::evolve::{NonDominated, visible};
 use crate::mesh::canonical::Code;
 use crate::search::EvaluatedRow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// A column that results of before do not have.
-const SYMMETRY: &str = "symmetry";
+/// Whether it is a column that results of before do not have.
+fn is_new(column: &str) -> bool {
+    column == "symmetry" || front::LAST.contains(&column)
+}
 
 /// Something that a table says otherwise than the rest of the folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -36,15 +39,18 @@ pub fn contradictions(folder: &Path, loaded: &Loaded) -> Result<Vec<Contradictio
         let row = row(record, &columns)?;
         Ok((row.code, columns.history_cells(&row)))
     })?);
-    found.extend(header(folder, PARETO, &columns.header())?);
+    let of_front = columns.front_header();
+    found.extend(header(folder, PARETO, &of_front)?);
+    let standing = Standing::of(&loaded.evaluated);
     let places: BTreeMap<Code, &EvaluatedRow> = loaded.evaluated.iter().map(|row| (row.code, row)).collect();
-    found.extend(rows(folder, (PARETO, loaded.naming), &columns.header(), |record| {
+    found.extend(rows(folder, (PARETO, loaded.naming), &of_front, |record| {
         let code = row(record, &columns)?.code;
         let recorded =
             places.get(&code).ok_or_else(|| record.wrong(format!("{} is not in {HISTORY}", id(code))))?;
-        Ok((code, columns.cells(recorded)))
+        Ok((code, [columns.cells(recorded), standing.cells(recorded).into()].concat()))
     })?);
-    found.extend(front(loaded, &columns));
+    let counts_equal = Sheet::header(&folder.join(PARETO))?.iter().any(|c| front::LAST.contains(&c.as_str()));
+    found.extend(listed(loaded, &columns, counts_equal));
     Ok(found)
 }
 
@@ -52,7 +58,7 @@ pub fn contradictions(folder: &Path, loaded: &Loaded) -> Result<Vec<Contradictio
 fn header(folder: &Path, name: &str, promised: &[String]) -> Result<Vec<Contradiction>, LoadError> {
     let path = folder.join(name);
     let found = Sheet::header(&path)?;
-    let promised: Vec<&String> = promised.iter().filter(|c| *c != SYMMETRY || found.contains(c)).collect();
+    let promised: Vec<&String> = promised.iter().filter(|c| !is_new(c) || found.contains(c)).collect();
     let missing: Vec<&str> = promised.iter().filter(|c| !found.contains(c)).map(|c| c.as_str()).collect();
     if !missing.is_empty() {
         let message = format!("line 1: columns are missing: {}", missing.join(", "));
@@ -77,7 +83,7 @@ fn rows(
     let of_rows = Sheet::each(folder, name, |record| {
         let (code, expected) = expect(record)?;
         let mut told = Vec::new();
-        for (column, cell) in header.iter().zip(&expected).filter(|(c, _)| *c != SYMMETRY || record.has(c)) {
+        for (column, cell) in header.iter().zip(&expected).filter(|(c, _)| !is_new(c) || record.has(c)) {
             let (expected, found) = (written(column, cell, naming), record.text(column)?);
             if !same(&expected, found) && !same(&expected, &record.plain(column)?) {
                 let (line, id) = (record.line(), id(code));
@@ -100,8 +106,9 @@ fn written(column: &str, cell: &Cell, naming: Naming) -> String {
     }
 }
 
-/// Designs that are missing on the front, that do not belong there, or that are listed twice.
-fn front(loaded: &Loaded, columns: &Columns) -> Vec<Contradiction> {
+/// Designs that are missing on the front, that do not belong there, or that are listed twice. Of equal designs the front
+/// lists one; results of before, whose tables do not count them, may list any of them.
+fn listed(loaded: &Loaded, columns: &Columns, counts_equal: bool) -> Vec<Contradiction> {
     let mut expected = NonDominated::default();
     for (place, row) in loaded.evaluated.iter().enumerate() {
         if row.is_feasible() && row.objectives.len() == columns.objectives.len() {
@@ -109,20 +116,26 @@ fn front(loaded: &Loaded, columns: &Columns) -> Vec<Contradiction> {
         }
     }
     let expected: BTreeSet<usize> = expected.ids().collect();
-    let mut listed = BTreeSet::new();
+    let values = |place: usize| visible(&loaded.evaluated[place].objectives);
+    let stands_for =
+        |listed: usize, place: usize| listed == place || (!counts_equal && values(listed) == values(place));
     let mut told = Vec::new();
     let mut tell = |place: usize, what: &str| {
         let code = loaded.evaluated[place].code;
         told.push(Contradiction { code: Some(code), message: format!("{PARETO}: {}: {what}", id(code)) });
     };
+    let mut listed = BTreeSet::new();
     for &place in &loaded.front {
         if !listed.insert(place) {
             tell(place, "listed a second time");
-        } else if !expected.contains(&place) {
-            tell(place, "not on the front: infeasible or dominated according to history.csv");
+        } else if !expected.iter().any(|&other| stands_for(place, other)) {
+            tell(
+                place,
+                "not on the front: infeasible, dominated or equal to a design before it, according to history.csv",
+            );
         }
     }
-    for &place in expected.difference(&listed) {
+    for &place in expected.iter().filter(|&&place| !listed.iter().any(|&other| stands_for(other, place))) {
         tell(place, "missing, but on the front according to history.csv");
     }
     told

@@ -1,6 +1,7 @@
 //! `pareto.csv` and `history.csv`: one row per design (docs/reference/files.md §2.1).
 
-use super::table::{Cell, Dialect, Table};
+use super::front;
+use super::table::{Cell, Dialect};
 use crate::mesh::canonical::Code;
 use crate::objectives::{self, GOVERNING, METRICS};
 use crate::search::EvaluatedRow;
@@ -88,7 +89,12 @@ impl Columns {
     }
 
     /// The header of `pareto.csv`.
-    pub(super) fn header(&self) -> Vec<String> {
+    pub(super) fn front_header(&self) -> Vec<String> {
+        self.header().into_iter().chain(front::LAST.map(str::to_owned)).collect()
+    }
+
+    /// What both headers begin with.
+    fn header(&self) -> Vec<String> {
         let first = FIRST.iter().map(|&name| name.to_owned());
         first
             .chain(self.objectives.iter().cloned())
@@ -97,7 +103,7 @@ impl Columns {
             .collect()
     }
 
-    /// A row of `pareto.csv`.
+    /// What the rows of both files begin with.
     pub(super) fn cells(&self, row: &EvaluatedRow) -> Vec<Cell> {
         let mut cells: Vec<Cell> = vec![
             id(row.code).into(),
@@ -133,19 +139,6 @@ impl Columns {
             row.metrics.get(metric)
         })
     }
-}
-
-/// The front, ordered by objectives, the first one first, and by code where all are equal.
-pub fn pareto(front: &[&EvaluatedRow], columns: &Columns) -> Table {
-    let mut rows: Vec<&EvaluatedRow> = front.to_vec();
-    rows.sort_by(|a, b| {
-        let pairs = a.objectives.iter().zip(&b.objectives);
-        let by_objectives = pairs.map(|(x, y)| x.total_cmp(y)).find(|order| order.is_ne());
-        by_objectives.unwrap_or(std::cmp::Ordering::Equal).then(a.code.cmp(&b.code))
-    });
-    let mut table = Table::new(columns.header());
-    table.rows = rows.into_iter().map(|row| columns.cells(row)).collect();
-    table
 }
 
 /// Writes all evaluated designs, in the given order; none of them is kept in memory a second time.
@@ -190,21 +183,6 @@ pub(super) mod tests {
             governing: Box::default(),
             structural: true,
         }
-    }
-
-    #[test]
-    fn pareto_is_sorted_and_has_the_promised_columns() {
-        let (mut a, b) =
-            (row(1, "ATA", &[2.0, 0.5], Violation::NONE), row(2, "", &[1.5, 1.0], Violation::NONE));
-        a.governing = ["sls", "uls", ""].map(Box::from).into();
-        let text = String::from_utf8(pareto(&[&a, &b], &columns()).to_csv()).unwrap();
-        assert_eq!(
-            text,
-            "id,string,expressed,code,symmetry,generation,feasible,mass_kg,curvature,buckling_factor,\
-             deflection_combination,utilisation_combination,buckling_combination\n\
-             q000000000000,\"\",\"\",q0000000000000002,,3,true,1.5,1,,,,\n\
-             q000000000000,ATA,ATA,q0000000000000001,,3,true,2,0.5,,sls,uls,\n"
-        );
     }
 
     #[test]

@@ -9,6 +9,7 @@ pub mod designs;
 pub mod explanation;
 pub mod explorer;
 pub mod folder;
+pub mod front;
 pub mod generations;
 mod holds;
 pub mod inputs;

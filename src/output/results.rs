@@ -2,9 +2,10 @@
 
 use super::analysed::{Analysed, PanelShapes};
 use super::compas::compas;
-use super::designs::{Columns, id, pareto, write_history};
+use super::designs::{Columns, id, write_history};
 use super::explorer::{Column, design_explorer};
 use super::folder::{self, Folder, FolderError, TABLES, excel_name};
+use super::front::{Standing, pareto};
 use super::generations::{generations, operators};
 use super::obj::obj;
 use super::obstacles::nearest_misses;
@@ -94,7 +95,7 @@ impl Run<'_> {
         let columns = Columns::of(&self.project.config.objectives.minimise);
         let Outcome { evaluated, generations: rows, .. } = self.outcome;
         let tables: [(&str, Table); 3] = [
-            (folder::PARETO, pareto(&self.front(), &columns)),
+            (folder::PARETO, pareto(&self.front(), &Standing::of(evaluated), &columns)),
             (folder::GENERATIONS, generations(rows, &columns.objectives)),
             (folder::OPERATORS, operators(rows)),
         ];

@@ -44,6 +44,10 @@ fn the_embedded_data_parses_back() {
         assert_eq!(row["string"], design.string);
         let values: Vec<Option<f64>> = serde_json::from_value(row["values"].clone()).unwrap();
         assert_eq!(values, design.values);
+        assert_eq!(
+            (&row["symmetry"], &row["equal"]),
+            (&design.symmetry.as_str().into(), &design.equal.into())
+        );
     }
     let meshes: Value = serde_json::from_str(embedded(&page, "mesh-data")).unwrap();
     assert_eq!(meshes.as_object().unwrap().len(), 5);

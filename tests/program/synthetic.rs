@@ -161,6 +161,7 @@ fn design(i: usize, panels: usize, rng: &mut Rng) -> Design {
             poles: usize::from(kind == 2),
         }),
         symmetry: ["mirror-x", "", "mirror-x mirror-y rotate-2"][kind].to_owned(),
+        equal: 1 + kind as u64,
         family: None,
         mesh: Some(mesh),
     }

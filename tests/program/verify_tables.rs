@@ -27,6 +27,13 @@ fn finished_run() -> tempfile::TempDir {
 
 type Table = Vec<Vec<String>>;
 
+/// The line of `history.csv` with the design of a line of `pareto.csv`.
+fn front_line(folder: &Path, history: &Table, line: usize) -> usize {
+    let front = fs::read_to_string(folder.join("pareto.csv")).unwrap();
+    let id = front.lines().nth(line).unwrap().split(',').next().unwrap();
+    history.iter().position(|row| row[0] == id).unwrap()
+}
+
 fn change(folder: &Path, name: &str, change: impl FnOnce(&mut Table)) {
     let path = folder.join(name);
     let mut reader = csv::ReaderBuilder::new().has_headers(false).from_path(&path).unwrap();
@@ -73,6 +80,7 @@ fn every_changed_cell_of_the_front_is_named() {
         ("deflection_m", "0.5"),
         ("edge_spread_m", "NaN"),
         ("mass_kg", ""),
+        ("equal_designs", "7"),
     ] {
         let told = told("pareto.csv", set(name, value));
         let [message] = told.as_slice() else { panic!("{name}: {told:?}") };
@@ -98,6 +106,21 @@ fn a_front_with_other_designs_is_told() {
     assert!(less.len() == 1 && less[0].ends_with("missing, but on the front according to history.csv"));
     let twice = told("pareto.csv", |table| table.push(table[1].clone()));
     assert!(twice.len() == 1 && twice[0].ends_with("listed a second time"), "{twice:?}");
+    let equal = {
+        let folder = finished_run();
+        // A second design with the values of the first: a front lists only one of them.
+        change(folder.path(), "history.csv", |table| {
+            let (from, to) = (front_line(folder.path(), table, 1), front_line(folder.path(), table, 2));
+            let first = column(table, "deflection_m");
+            let values = table[from][first..].to_vec();
+            table[to].splice(first.., values);
+        });
+        let messages = contradictions(folder.path(), &load(folder.path()).unwrap()).unwrap();
+        messages.into_iter().map(|found| found.message).collect::<Vec<_>>()
+    };
+    let one = equal.iter().filter(|m| m.contains("equal to a design before it")).count();
+    assert_eq!(one, 1, "{equal:?}");
+    assert!(equal.iter().any(|m| m.ends_with("equal_designs: expected 2, found 1")), "{equal:?}");
     let none = told("pareto.csv", |table| table.truncate(1));
     assert!(none.len() > 1, "{none:?}");
     let swapped = told("pareto.csv", |table| table.iter_mut().for_each(|row| row.swap(7, 8)));

@@ -4,7 +4,7 @@
 
 use quadrille::evolve::{
     Domination, Fitness, NonDominated, SampledHypervolume, Violation, compare, crowding_distance, fronts,
-    hypervolume, standings, survive,
+    hypervolume, standings, survive, visible,
 };
 use quadrille::random::{Rng, below, stream, unit};
 use serde::Deserialize;
@@ -155,7 +155,10 @@ fn the_unbounded_archive_is_the_first_front_of_all_that_was_offered() {
         for (id, point) in points.iter().enumerate() {
             archive.offer(id, point);
         }
-        assert_eq!(archive.ids().collect::<Vec<_>>(), fronts(&feasible(&points))[0]);
+        let rounded: Vec<Vec<f64>> = points.iter().map(|point| visible(point)).collect();
+        let mut first = fronts(&feasible(&rounded))[0].clone();
+        first.retain(|&i| !rounded[..i].contains(&rounded[i]));
+        assert_eq!(archive.ids().collect::<Vec<_>>(), first);
         assert!(!archive.offer(99, &[f64::NAN, 0.0, 0.0]));
     }
 }

@@ -90,6 +90,8 @@ pub struct Design {
     pub singularities: Option<Singularities>,
     /// Reflections and rotations of the domain that map it onto itself, as in the column `symmetry`; empty if there are none.
     pub symmetry: String,
+    /// How many evaluated designs have the same objectives to six digits, itself included.
+    pub equal: u64,
     /// Number of its family where singularities alone make too many: designs a few strips apart.
     pub family: Option<usize>,
     /// Its dense mesh with results; without one the design has no picture.

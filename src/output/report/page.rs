@@ -44,6 +44,8 @@ struct Row<'a> {
     reason: &'a Option<String>,
     values: Vec<Option<f64>>,
     singularities: &'a Option<super::Singularities>,
+    symmetry: &'a str,
+    equal: u64,
     group: Option<usize>,
 }
 
@@ -106,6 +108,8 @@ fn row(design: &Design) -> Row<'_> {
         reason: &design.reason,
         values: design.values.iter().map(|v| v.filter(|v| v.is_finite())).collect(),
         singularities: &design.singularities,
+        symmetry: &design.symmetry,
+        equal: design.equal,
         group: design.family,
     }
 }

@@ -10,6 +10,7 @@ use crate::objectives::{self, METRICS};
 use crate::output::coarse::singularities;
 use crate::output::designs::{Naming, id};
 use crate::output::folder::DESIGNS;
+use crate::output::front::Standing;
 use crate::output::inputs;
 use crate::output::load::{LoadError, Loaded, look};
 use crate::output::manifest::Manifest;
@@ -122,6 +123,7 @@ struct Shown {
     places: Vec<usize>,
     objectives: usize,
     naming: Naming,
+    standing: Standing,
     /// What strings mean; none where the files that the config names are no longer there.
     study: Option<Study>,
 }
@@ -140,6 +142,7 @@ impl Shown {
             places,
             objectives,
             naming: *naming,
+            standing: Standing::of(evaluated),
             study: inputs.and_then(|inputs| Study::of(config, inputs).ok()),
         }
     }
@@ -155,6 +158,7 @@ impl Shown {
             values: self.places.iter().map(|&place| row.metrics.get(place)).collect(),
             singularities: self.study.as_ref().map(|study| singularities(&study.decode(&row.tokens).mesh)),
             symmetry: row.symmetries.to_string(),
+            equal: self.standing.equal_designs(row),
             family: None,
             mesh: None,
         };
