@@ -2,7 +2,7 @@
 //! pattern that can be built, minimised on coarse patterns whose densities follow their shape, then on the pattern itself.
 //!
 //! ```text
-//! placed (N/4) → [coarse descent → lengths → rows]³ → pattern (N) → Q1, Q2, Q3 until the limits hold → other rows
+//! placed (N/4) → [coarse descent → lengths → rows]³⁺ → pattern (N) → Q1, Q2, Q3 until the limits hold → other rows
 //! ```
 //!
 //! Everything is a function of the canonical mesh: canonical arrays, one order of sums, no chance.
@@ -44,8 +44,10 @@ const ANGLE_RESERVE: f64 = 1.075;
 const GAP_RESERVE: f64 = 0.95;
 /// The coarse pattern has N divided by this.
 const COARSENESS: f64 = 4.0;
-/// Times that rows are chosen anew.
+/// Coarse descents.
 const ROUNDS: usize = 3;
+/// More of them while a strip has not the rows that its longest rung asks for.
+const MORE_ROUNDS: usize = 4;
 /// Times that strips with too long rungs get one row more.
 const REPAIRS: usize = 3;
 /// Energies after Q1 and Q2 over which a try ends: of 117 designs of the Great Court none that went on from more came to keep its limits.
@@ -128,8 +130,8 @@ struct Descended {
 struct Tried {
     sheet: Sheet,
     shaped: Shaped,
-    /// Whether the descent came anywhere: nothing is folded, outside or out of order.
-    is_clean: bool,
+    /// Infinite where something is folded, outside or out of order.
+    energy: f64,
     /// Whether it keeps all limits.
     is_good: bool,
 }
@@ -145,7 +147,7 @@ impl<'a> Optimiser<'a> {
     /// # Errors
     /// [`Rejection::TooManyFaces`].
     pub fn pattern_rows(&self, sheet: &Sheet) -> Result<Vec<u32>, Rejection> {
-        let rows = self.rows(sheet, Rungs::mean, None);
+        let rows = self.rows(sheet, &[]);
         self.check_count(&rows)?;
         Ok(rows)
     }
@@ -156,36 +158,37 @@ impl<'a> Optimiser<'a> {
     /// [`Rejection::TooManyFaces`]. Limits that are not kept, folds and vertices outside are no errors here.
     pub fn run(&self, placed: Sheet) -> Result<Shaped, Rejection> {
         let shaped = self.shape_coarsely(placed);
-        let rows = self.pattern_rows(&shaped)?;
+        let rows = self.rows(&shaped, &self.enough_rows(&shaped, 1.0));
+        self.check_count(&rows)?;
         let mut tried = self.try_rows(&shaped, &rows);
-        if !tried.is_clean {
+        if !tried.energy.is_finite() {
             let doubled: Vec<u32> = shaped.dense_parts(self.task.coarse).iter().map(|n| 2 * n).collect();
             if self.check_count(&doubled).is_ok() {
                 tried = self.try_rows(&shaped, &doubled);
             }
         }
-        if tried.is_good {
-            return Ok(tried.shaped);
-        }
-        let from = if tried.is_clean { &tried.sheet } else { &shaped };
-        let rows = self.rows(from, Rungs::middle, None);
-        if self.check_count(&rows).is_ok() {
-            let other = self.try_rows(from, &rows);
-            if other.is_good {
-                return Ok(other.shaped);
-            }
-        }
-        Ok(self.repair(tried))
+        if tried.is_good { Ok(tried.shaped) } else { Ok(self.repair(tried)) }
     }
 
-    /// Coarse descents, each on rows that follow the shape found before; the last that nothing is folded in.
+    /// Coarse descents, each on rows that follow the shape found before, those after the third enough for its longest rungs; the last
+    /// that nothing is folded in.
     fn shape_coarsely(&self, placed: Sheet) -> Sheet {
         let (mut shaped, mut is_clean) = self.descend(placed, &COARSE);
-        for _ in 1..ROUNDS {
+        for round in 1..ROUNDS + MORE_ROUNDS {
             if !is_clean {
                 break;
             }
-            let rows = self.coarse_rows(&shaped);
+            let mut at_least = Vec::new();
+            if round >= ROUNDS {
+                at_least = self.enough_rows(&shaped, self.coarseness(&shaped));
+                if self.has_rows(&shaped, &at_least) {
+                    break;
+                }
+            }
+            let rows = self.rows_of_coarse(&shaped, &at_least);
+            if rows == shaped.dense_parts(self.task.coarse) {
+                break;
+            }
             let next = resample::resample(self.task.coarse, self.ground, &shaped, &rows);
             let (found, found_clean) = self.descend(next, &COARSE);
             is_clean = found_clean;
@@ -198,33 +201,40 @@ impl<'a> Optimiser<'a> {
 
     /// Rows of a coarse pattern of about N/4 panels, measured on a sheet of any densities.
     pub fn coarse_rows(&self, sheet: &Sheet) -> Vec<u32> {
-        let rungs = rows::rungs(self.task.coarse, sheet);
-        let lengths: Vec<f64> = rungs.iter().map(Rungs::mean).collect();
-        let bounds =
-            rows::bounds(self.task.coarse, self.ground, sheet, self.task.aims, &self.caps, COARSENESS.sqrt());
+        self.rows_of_coarse(sheet, &[])
+    }
+
+    fn rows_of_coarse(&self, sheet: &Sheet, at_least: &[u32]) -> Vec<u32> {
         let fineness = Fineness::Panels(self.task.panels / COARSENESS);
-        self.evened(density::choose(self.task.coarse, &lengths, fineness, &bounds))
+        self.choose_rows(sheet, at_least, fineness, COARSENESS.sqrt())
     }
 
-    /// Equal for strips that are images of each other. So they are but where lengths that should be equal differ by more than rounding.
-    fn evened(&self, mut rows: Vec<u32>) -> Vec<u32> {
-        images::even_rows(self.task.coarse, &self.ground.images, &mut rows);
-        rows
-    }
-
-    /// Rows of the pattern itself; `at_least` besides what corners and sides ask for.
-    fn rows(&self, sheet: &Sheet, length: fn(&Rungs) -> f64, at_least: Option<&[u32]>) -> Vec<u32> {
-        let rungs = rows::rungs(self.task.coarse, sheet);
-        let lengths: Vec<f64> = rungs.iter().map(length).collect();
-        let mut bounds = rows::bounds(self.task.coarse, self.ground, sheet, self.task.aims, &self.caps, 1.0);
-        if let Some(at_least) = at_least {
-            bounds.least.iter_mut().zip(at_least).for_each(|(least, more)| *least = (*least).max(*more));
-        }
+    /// Rows of the pattern itself.
+    fn rows(&self, sheet: &Sheet, at_least: &[u32]) -> Vec<u32> {
         let fineness = match self.task.fineness {
             Fineness::Panels(panels) => Fineness::Panels(panels),
             Fineness::Width(width) => Fineness::Width(width / self.task.limits.target_length),
         };
-        self.evened(density::choose(self.task.coarse, &lengths, fineness, &bounds))
+        self.choose_rows(sheet, at_least, fineness, 1.0)
+    }
+
+    /// Rows in proportion to mean rungs, as many as corners, sides and `at_least` (nothing, or a number a strip) ask for.
+    fn choose_rows(&self, sheet: &Sheet, at_least: &[u32], fineness: Fineness, coarseness: f64) -> Vec<u32> {
+        let Task { coarse, aims, .. } = *self.task;
+        let lengths: Vec<f64> = rows::rungs(coarse, sheet).iter().map(Rungs::mean).collect();
+        let mut bounds = rows::bounds(coarse, self.ground, sheet, aims, &self.caps, coarseness);
+        bounds.least.iter_mut().zip(at_least).for_each(|(least, more)| *least = (*least).max(*more));
+        let mut rows = density::choose(coarse, &lengths, fineness, &bounds);
+        // Strips that are images of each other have equal rows, but where lengths that should be equal differ by more than rounding.
+        images::even_rows(coarse, &self.ground.images, &mut rows);
+        rows
+    }
+
+    /// Rows with which no rung of a strip is longer than the longest edge, or as many as the strip may have.
+    fn enough_rows(&self, sheet: &Sheet, coarseness: f64) -> Vec<u32> {
+        let longest = coarseness * LONG_RESERVE * self.task.aims.max_edge / self.task.aims.target_length;
+        let enough = |(rungs, &cap): (&Rungs, &u32)| ((rungs.most / longest).ceil() as u32).clamp(1, cap);
+        rows::rungs(self.task.coarse, sheet).iter().zip(&self.caps).map(enough).collect()
     }
 
     fn check_count(&self, rows: &[u32]) -> Result<(), Rejection> {
@@ -246,7 +256,7 @@ impl<'a> Optimiser<'a> {
         }
         let Descended { energy, state, shaped, is_good } = last;
         sheet.set(state);
-        Tried { sheet, shaped, is_clean: energy.is_finite(), is_good }
+        Tried { sheet, shaped, energy, is_good }
     }
 
     fn after_stage(&self, run: &mut Run<'_>, stage: &Stage) -> Descended {
@@ -258,33 +268,33 @@ impl<'a> Optimiser<'a> {
         Descended { energy, state, shaped, is_good }
     }
 
-    /// At most three times, strips with a rung that is too long for their rows get one more; the last pattern that keeps the limits, or
-    /// the one that came.
-    fn repair(&self, tried: Tried) -> Shaped {
-        let Tried { mut sheet, shaped, mut is_clean, .. } = tried;
+    /// At most three times, strips get the rows that their longest rungs ask for; the first pattern that keeps the limits, or the one
+    /// that came.
+    fn repair(&self, mut tried: Tried) -> Shaped {
+        let mut shaped = None;
         for _ in 0..REPAIRS {
-            let longest = LONG_RESERVE * self.task.aims.max_edge / self.task.aims.target_length;
-            let parts = sheet.dense_parts(self.task.coarse);
-            let rungs = rows::rungs(self.task.coarse, &sheet);
-            let more = |s: usize| {
-                let is_short_of_rows = rungs[s].most / f64::from(parts[s]) > longest;
-                if is_short_of_rows { (parts[s] + 1).min(self.caps[s]) } else { 1 }
-            };
-            let at_least: Vec<u32> = (0..parts.len()).map(more).collect();
-            if !is_clean || at_least.iter().all(|&n| n == 1) {
+            let enough = self.enough_rows(&tried.sheet, 1.0);
+            let is_hopeless = tried.energy > HOPELESS[0];
+            if is_hopeless || self.has_rows(&tried.sheet, &enough) {
                 break;
             }
-            let rows = self.rows(&sheet, Rungs::mean, Some(&at_least));
+            let rows = self.rows(&tried.sheet, &enough);
             if self.check_count(&rows).is_err() {
                 break;
             }
-            let next = self.try_rows(&sheet, &rows);
+            let next = self.try_rows(&tried.sheet, &rows);
             if next.is_good {
                 return next.shaped;
             }
-            (sheet, is_clean) = (next.sheet, next.is_clean);
+            let before = std::mem::replace(&mut tried, next);
+            shaped.get_or_insert(before.shaped);
         }
-        shaped
+        shaped.unwrap_or(tried.shaped)
+    }
+
+    /// Whether every strip has so many rows.
+    fn has_rows(&self, sheet: &Sheet, rows: &[u32]) -> bool {
+        rows.iter().zip(sheet.dense_parts(self.task.coarse)).all(|(&enough, n)| enough <= n)
     }
 
     /// Untangled in plan where needed, then one descent; whether nothing is folded.

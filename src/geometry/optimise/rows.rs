@@ -25,8 +25,6 @@ const POLE_RESERVE: f64 = 1.05;
 pub struct Rungs {
     sum: f64,
     count: f64,
-    /// The shortest.
-    pub least: f64,
     /// The longest.
     pub most: f64,
 }
@@ -37,22 +35,16 @@ impl Rungs {
         self.sum / self.count
     }
 
-    /// Half way between the shortest and the longest.
-    pub fn middle(&self) -> f64 {
-        0.5 * (self.least + self.most)
-    }
-
     fn add(&mut self, length: f64) {
         self.sum += length;
         self.count += 1.0;
-        self.least = self.least.min(length);
         self.most = self.most.max(length);
     }
 }
 
 /// The rungs of all strips: of every coarse face all rows one way and all columns the other.
 pub fn rungs(coarse: &Coarse<'_>, sheet: &Sheet) -> Vec<Rungs> {
-    let none = Rungs { sum: 0.0, count: 0.0, least: f64::INFINITY, most: 0.0 };
+    let none = Rungs { sum: 0.0, count: 0.0, most: 0.0 };
     let mut rungs = vec![none; coarse.mesh.strips.len()];
     let between = |u: u32, v: u32| distance(sheet.points[u as usize], sheet.points[v as usize]);
     for (f, &[s, t]) in coarse.mesh.face_strips.iter().enumerate() {
