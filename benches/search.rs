@@ -2,9 +2,7 @@
 #![allow(missing_docs, reason = "criterion's macros")]
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use quadrille::evolve::{
-    EpsilonArchive, Fitness, SampledHypervolume, Violation, fronts, hypervolume, survive,
-};
+use quadrille::evolve::{Fitness, SampledHypervolume, Violation, fronts, hypervolume, survive};
 use quadrille::random::{stream, unit};
 use std::hint::black_box;
 
@@ -46,18 +44,5 @@ fn volumes(criterion: &mut Criterion) {
     });
 }
 
-fn archive(criterion: &mut Criterion) {
-    let points = points(1000, 6);
-    criterion.bench_function("epsilon_archive/1000x6", |b| {
-        b.iter(|| {
-            let mut archive = EpsilonArchive::new(0.01, 200);
-            for (id, point) in points.iter().enumerate() {
-                archive.offer(id, black_box(point));
-            }
-            archive.ids().len()
-        });
-    });
-}
-
-criterion_group!(benches, selection, volumes, archive);
+criterion_group!(benches, selection, volumes);
 criterion_main!(benches);

@@ -35,8 +35,8 @@ use quadrille::mesh::canonical::Code;
 use quadrille::objectives::{METRICS, Metric};
 use quadrille::random::Rng;
 use quadrille::search::{
-    Evaluation, Identity, Normalisation, Outcome, Preview, Problem, RuleOperator, Settings, Silent, Steps,
-    StopFlag, ThreadServer, operators, quantile, run,
+    Evaluation, Identity, Normalisation, Outcome, Problem, RuleOperator, Settings, Silent, Steps, StopFlag,
+    ThreadServer, operators, quantile, run,
 };
 use quadrille::study::Study;
 
@@ -131,20 +131,6 @@ impl Problem for Shared<'_> {
             self.objectives.iter().map(|&m| evaluation.metrics.get(m).copied().flatten()).collect();
         evaluation.objectives = objectives.unwrap_or_default();
         evaluation
-    }
-
-    fn has_preview(&self) -> bool {
-        self.study.has_preview()
-    }
-
-    fn preview(&self, tokens: &Tokens) -> Preview {
-        let known = self.cache.look_up(self.study.topology(tokens).code);
-        // Of an analysed design that fails, it is not kept by what.
-        let Some(known) = known.filter(|e| !e.structural || e.violation.is_feasible()) else {
-            return self.study.preview(tokens);
-        };
-        let value = |&m: &usize| known.metrics.get(m).copied().flatten().filter(|_| !METRICS[m].structural);
-        Preview { violation: known.violation, objectives: self.objectives.iter().map(value).collect() }
     }
 
     fn seeds(&self) -> Vec<Tokens> {

@@ -25,9 +25,7 @@ use crate::objectives::{self, AnalysedDesign, METRICS, Metric};
 use crate::random::Rng;
 use crate::search::operators::{Growth, Reach};
 use crate::search::params::EquivalenceParams;
-use crate::search::{
-    Evaluation, Identity, Preview, Problem, RuleOperator, SearchParams, Steps, round_significant,
-};
+use crate::search::{Evaluation, Identity, Problem, RuleOperator, SearchParams, Steps, round_significant};
 use crate::skeleton::{self, InitialError};
 use crate::structure::StructureParams;
 use crate::structure::gridshell::{self, AnalysisError, Detailed, Proof, Response};
@@ -532,30 +530,12 @@ impl Problem for Study {
         self.evaluate_topology(topology, effort)
     }
 
-    fn has_preview(&self) -> bool {
-        let structural = self.objectives.iter().filter(|objective| objective.structural).count();
-        self.structure.is_some() && (1..self.objectives.len()).contains(&structural)
-    }
-
-    fn preview(&self, tokens: &Tokens) -> Preview {
-        let design = match self.develop(self.topology(tokens), Effort::Pattern) {
-            Ok(design) => design,
-            Err(failure) => return Preview::unknown(failure.violation),
-        };
-        let analysed = design.analysed();
-        let value = |objective: &&Metric| (objective.value)(&analysed).map(round_significant);
-        Preview {
-            violation: stage_1(design.excess().0),
-            objectives: self.objectives.iter().map(value).collect(),
-        }
-    }
-
     fn seeds(&self) -> Vec<Tokens> {
         self.seeds.clone()
     }
 
     fn random(&self, rng: &mut Rng) -> Tokens {
-        self.growth().random(self.search.initial.kind, rng)
+        self.growth().random(rng)
     }
 
     fn steps(&self, steps: Steps, expressed: &Tokens) -> Vec<Tokens> {

@@ -16,11 +16,12 @@ use quadrille::geometry::metrics::{Fabrication, measure};
 use quadrille::geometry::params::Pinched;
 use quadrille::geometry::{Pattern, Shaped, check, develop, limits, shape, topological_rejection};
 use quadrille::grammar::Tokens;
+use quadrille::grammar::random::{self, Shares};
 use quadrille::mesh::CanonicalMesh;
 use quadrille::output::svg::{Plan, Shade, svg};
 use quadrille::random::stream;
 use quadrille::search::operators::Growth;
-use quadrille::search::params::{Initialiser, TokenBounds};
+use quadrille::search::params::TokenBounds;
 use quadrille::study::Study;
 use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;
@@ -121,11 +122,14 @@ fn read_strings(file: &Path) -> Result<Vec<Tokens>, Box<dyn Error>> {
 fn random_strings(study: &Study, kind: &str, wanted: usize, seed: u64) -> Vec<Tokens> {
     let growth =
         Growth { initial: &study.start.part, rules: study.rules, bounds: TokenBounds { min: 10, max: 40 } };
-    let initialiser = if kind == "aware" { Initialiser::Aware } else { Initialiser::Structured };
     let mut codes = BTreeSet::new();
     let mut strings = Vec::new();
     for i in 0..TRIES * wanted {
-        let tokens = growth.random(initialiser, &mut stream(seed, 0, i as u32));
+        let mut rng = stream(seed, 0, i as u32);
+        let tokens = match kind {
+            "aware" => growth.random(&mut rng),
+            _ => random::structured(&mut rng, 10..=40, &Shares::default()),
+        };
         let mesh = study.topology(&tokens);
         let is_new = codes.insert(mesh.code);
         if is_new && topological_rejection(&mesh, &study.domain, Pinched::Reject, None).is_none() {

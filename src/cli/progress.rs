@@ -179,13 +179,8 @@ impl Observer for Display {
         self.generation = row.generation + 1;
         let breeding = &row.breeding;
         let told = format!(
-            "  bred {}, duplicates refused {}, neighbours refused {}, rejected by topology {}, passed over by geometry {}, immigrants {}",
-            breeding.bred,
-            breeding.duplicates,
-            breeding.neighbours,
-            breeding.rejected,
-            breeding.screened,
-            breeding.immigrants
+            "  bred {}, duplicates refused {}, neighbours refused {}, rejected by topology {}, immigrants {}",
+            breeding.bred, breeding.duplicates, breeding.neighbours, breeding.rejected, breeding.immigrants
         );
         self.beside_the_bar(|| self.console.detail(&told));
     }

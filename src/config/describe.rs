@@ -65,15 +65,7 @@ fn many_objectives(config: &Config) -> String {
              \"auto\" takes the hypervolume)"
         }
     };
-    let archive = &search.archive;
-    let parents = match archive.parents > 0.0 {
-        true => format!(
-            "; {} of the parents come from the archive, which is thinned by its grid of epsilon = {}",
-            archive.parents, archive.epsilon
-        ),
-        false => String::new(),
-    };
-    format!("{count} objectives: with more than 4 most designs are non-dominated; {survivors}{parents}")
+    format!("{count} objectives: with more than 4 most designs are non-dominated; {survivors}")
 }
 
 /// A sized height is the least that meets all requirements: one of them is met exactly.
@@ -288,7 +280,8 @@ fn describe_requirement(requirement: &RequirementParams) -> String {
 
 fn describe_search(config: &Config) -> Vec<String> {
     let search = &config.search;
-    let most = (search.population as u64).saturating_mul(u64::from(search.generations) + 1);
+    let later = (search.population as u64).saturating_mul(search.islands as u64);
+    let most = later.saturating_mul(u64::from(search.generations)).saturating_add(search.first() as u64);
     let mut stops = vec![format!("{} generations", search.generations)];
     stops.extend(search.evaluations.map(|n| format!("{n} structural evaluations")));
     stops.extend(search.minutes.map(|minutes| format!("{minutes} minutes")));

@@ -22,6 +22,7 @@ pub use path::{KeyPath, Segment};
 pub use project::{Project, folder_of};
 pub use reference::reference;
 pub use resolved::{differences, hash, input_files, read_inputs, to_toml};
+pub use retired::recorded;
 pub use schema::config_schema;
 
 use crate::domain::params::DomainParams;

@@ -8,7 +8,6 @@ use crate::domain::params::{Corners, LoopParams};
 use crate::geometry::params::{Density, InitialMesh, RelaxKind};
 use crate::io::{Inputs, ReadError};
 use crate::objectives::{self, METRICS};
-use crate::search::params::RuleParams;
 use crate::structure::params::{
     HeightParams, Quantity, RequirementParams, SectionParams, StructureParams, SupportNodes, SupportParams,
 };
@@ -347,15 +346,6 @@ impl Rules<'_> {
     }
 
     fn search(&mut self, config: &Config) {
-        let RuleParams { append_strip, append_deletion, drop_last, swap_pair } = config.search.rules;
-        let sum = append_strip + append_deletion + drop_last + swap_pair;
-        // Shares written in decimals may add up to a little more than 1.
-        if sum > 1.0 + 1e-9 {
-            let sum = (1e6 * sum).round() / 1e6;
-            let message =
-                format!("found shares that add up to {sum}; allowed: at most 1, the rest is bred token-wise");
-            self.refuse("search.rules", message);
-        }
         let tokens = config.search.tokens;
         if tokens.min > tokens.max {
             let message = format!("found min = {} and max = {}; allowed: min ≤ max", tokens.min, tokens.max);

@@ -4,7 +4,6 @@
 //! the caller's data. Everything is minimised. Numbers are compared by `total_cmp`, and an objective that is not
 //! finite makes a design failed ([`Fitness::new`]), so NaN neither enters a front nor wins a tournament.
 
-mod archive;
 mod contribution;
 mod crowding;
 mod dependence;
@@ -16,7 +15,6 @@ mod sampled;
 mod selection;
 mod sorting;
 
-pub use archive::EpsilonArchive;
 pub use crowding::crowding_distance;
 pub use dependence::{Redundancy, redundancies};
 pub use domination::{Domination, FAILED, Fitness, Violation, compare, compare_objectives};

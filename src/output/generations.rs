@@ -18,7 +18,6 @@ pub fn generations(rows: &[GenerationRow], objectives: &[String]) -> Table {
         "neighbours_refused",
         "rejected_by_topology",
         "cached",
-        "screened",
         "immigrants",
         "empty_slots",
     ];
@@ -39,7 +38,6 @@ pub fn generations(rows: &[GenerationRow], objectives: &[String]) -> Table {
             breeding.neighbours.into(),
             breeding.rejected.into(),
             breeding.cached.into(),
-            breeding.screened.into(),
             breeding.immigrants.into(),
             breeding.empty.into(),
         ];

@@ -3,7 +3,7 @@
 use super::designs::{Columns, FIRST, LAST, Naming, digits, id};
 use super::folder::{self, CHECKPOINT, EVALUATION, GENERATIONS, HISTORY, MANIFEST, PARETO};
 use super::manifest::{Counts, Manifest, Status};
-use crate::config::Config;
+use crate::config::{self, Config};
 use crate::evolve::Violation;
 use crate::io::table;
 use crate::mesh::Symmetries;
@@ -121,7 +121,7 @@ fn head(folder: &Path) -> Result<(Manifest, Config), LoadError> {
     let wrong = |message: String| LoadError::Format { path: path.clone(), message };
     let manifest = Manifest::parse(&read(&path)?).map_err(|error| wrong(error.to_string()))?;
     let config: Config =
-        toml::from_str(&manifest.config).map_err(|error| wrong(format!("config: {}", error.message())))?;
+        config::recorded(&manifest.config).map_err(|error| wrong(format!("config: {}", error.message())))?;
     Ok((manifest, config))
 }
 
@@ -320,8 +320,6 @@ fn generation(record: Record<'_>, columns: &Columns) -> Result<GenerationRow, Lo
             neighbours: record.parse("neighbours_refused")?,
             rejected: record.parse("rejected_by_topology")?,
             cached: record.parse("cached")?,
-            // Results of before have no such column.
-            screened: record.number("screened")?.unwrap_or(0.0) as u64,
             immigrants: record.parse("immigrants")?,
             empty: record.parse("empty_slots")?,
             operators: Vec::new(),

@@ -4,19 +4,16 @@ use super::known::{Known, Verdict};
 use super::local::{Footholds, step};
 use super::near::Near;
 use super::observer::Observer;
-use super::operators::{
-    OPERATORS, Operator, crossover, drop_last, fit, insert, remove, substitute, swap_pair,
-};
+use super::operators::{OPERATORS, Operator, crossover, fit, insert, remove, substitute};
 use super::params::{Initialiser, SearchParams};
-use super::problem::{Identity, Preview, Problem, RuleOperator};
+use super::problem::{Identity, Problem, RuleOperator};
 use super::record::{Breeding, EvaluatedRow, OperatorCount};
-use super::screening::Screening;
 use super::server::Server;
 use super::state::{Member, State};
 use super::stop::StopFlag;
 use crate::evolve::{Fitness, Standing, standings, tournament};
 use crate::grammar::Tokens;
-use crate::random::{Rng, below, chance, stream, unit};
+use crate::random::{Rng, chance, stream};
 
 /// A string accepted for the generation under way.
 #[derive(Clone, Debug)]
@@ -38,8 +35,6 @@ struct Slot {
     island: usize,
     /// Strings refused so far.
     refused: u32,
-    /// What could fill it, each of another topology, when geometry chooses.
-    candidates: Vec<(Draft, Identity)>,
 }
 
 /// A string as bred, before anybody looked at what it means.
@@ -77,10 +72,9 @@ impl Default for Brood {
 ///
 /// Rounds: every open slot drafts one string from its own random stream, in slot order; all drafts are identified
 /// (in parallel, nothing is drawn there); then they are judged in slot order. A slot whose drafts were refused
-/// `tries` times becomes a random immigrant's, and stays empty after as many refusals again. Where geometry chooses
-/// ([`Screening`]), a slot gathers candidates until it has enough or its drafts were refused that often.
+/// `tries` times becomes a random immigrant's, and stays empty after as many refusals again.
 ///
-/// Long strings take long, and so do many previews. The signal that raised `stop` between two drafts is returned; the brood is then not whole.
+/// Long strings take long. The signal that raised `stop` between two drafts is returned; the brood is then not whole.
 pub(crate) fn breed<P: Problem>(
     problem: &P,
     server: &dyn Server,
@@ -97,11 +91,9 @@ pub(crate) fn breed<P: Problem>(
         search,
         generation,
         tries: search.duplicates.tries.max(1),
-        screening: Screening::of(problem, search, state),
         known: &mut known,
         first_row: state.rows.len() as u32,
         brood,
-        full: Vec::new(),
     };
     if generation == 0 && slot == 0 {
         nursery.take_seeds(problem, server, observer);
@@ -122,7 +114,6 @@ pub(crate) fn breed<P: Problem>(
             rng: stream(seed, generation, slot as u32),
             island: slot % search.islands,
             refused: 0,
-            candidates: Vec::new(),
         })
         .collect();
     while !open.is_empty() {
@@ -144,9 +135,6 @@ pub(crate) fn breed<P: Problem>(
         open = offers
             .filter_map(|((slot, draft), identity)| nursery.offer(slot, draft, identity, observer))
             .collect();
-        if open.is_empty() {
-            (open, stopped) = nursery.choose(server, stop);
-        }
     }
     state.known = known;
     stopped
@@ -158,12 +146,9 @@ struct Nursery<'a> {
     generation: u32,
     /// Refusals before a slot becomes an immigrant's.
     tries: u32,
-    screening: Option<Screening<'a>>,
     known: &'a mut Known,
     first_row: u32,
     brood: &'a mut Brood,
-    /// Slots with enough candidates.
-    full: Vec<Slot>,
 }
 
 impl Nursery<'_> {
@@ -250,61 +235,15 @@ impl Nursery<'_> {
     ) -> Option<Slot> {
         // The first population is random anyway.
         let given_up = self.generation > 0 && slot.refused >= self.tries;
-        match (self.judge(draft, identity, observer), self.screening) {
-            (Some((draft, identity)), Some(_)) if !given_up => {
-                if slot.candidates.iter().all(|(_, other)| other.code != identity.code) {
-                    slot.candidates.push((draft, identity));
-                } else {
-                    self.brood.breeding.duplicates += 1;
-                    slot.refused += 1;
-                }
-            }
-            (Some((draft, identity)), _) => {
-                self.accept(draft, identity);
-                self.brood.breeding.immigrants += u64::from(given_up);
-                return None;
-            }
-            (None, _) => slot.refused += 1,
-        }
-        let enough = self.screening.is_some_and(|screening| slot.candidates.len() == screening.candidates);
-        if enough || (slot.refused >= self.tries && !slot.candidates.is_empty()) {
-            self.full.push(slot);
+        if let Some((draft, identity)) = self.judge(draft, identity, observer) {
+            self.accept(draft, identity);
+            self.brood.breeding.immigrants += u64::from(given_up);
             return None;
         }
+        slot.refused += 1;
         let empty = slot.refused >= 2 * self.tries;
         self.brood.breeding.empty += u64::from(empty);
         (!empty).then_some(slot)
-    }
-
-    /// Fills each full slot with the most promising of its candidates that no slot before it took. Gives back the slots
-    /// that found nothing, and the signal if one came first.
-    fn choose(&mut self, server: &dyn Server, stop: &StopFlag) -> (Vec<Slot>, Option<i32>) {
-        let Some(screening) = self.screening else { return (Vec::new(), None) };
-        let strings =
-            self.full.iter().flat_map(|slot| &slot.candidates).map(|(draft, _)| draft.tokens.clone());
-        let previews = server.preview(&strings.collect::<Vec<_>>(), &|| stop.raised().is_some());
-        if let Some(signal) = stop.raised() {
-            return (Vec::new(), Some(signal));
-        }
-        let mut previews = previews.into_iter().flatten();
-        let mut emptied = Vec::new();
-        for mut slot in std::mem::take(&mut self.full) {
-            let mut candidates: Vec<_> = std::mem::take(&mut slot.candidates).into_iter().map(Some).collect();
-            let of_slot: Vec<Preview> = previews.by_ref().take(candidates.len()).collect();
-            let order = screening.order(&of_slot, &mut slot.rng).into_iter();
-            let free = |(_, identity): &(Draft, Identity)| {
-                matches!(self.known.judge(identity), Verdict::New | Verdict::Cached(_))
-            };
-            if let Some((draft, identity)) = order.filter_map(|k| candidates[k].take()).find(free) {
-                self.brood.breeding.screened += of_slot.len() as u64 - 1;
-                self.accept(draft, identity);
-            } else {
-                self.brood.breeding.duplicates += of_slot.len() as u64;
-                slot.refused += 1;
-                emptied.push(slot);
-            }
-        }
-        (emptied, None)
     }
 
     fn accept(&mut self, draft: Draft, identity: Identity) {
@@ -341,8 +280,6 @@ struct Parents<'a> {
     /// Members and standings of each population.
     islands: Vec<(&'a [Member], Vec<Standing>)>,
     footholds: Footholds,
-    archive: Vec<usize>,
-    from_archive: f64,
 }
 
 impl<'a> Parents<'a> {
@@ -355,21 +292,14 @@ impl<'a> Parents<'a> {
         Self {
             rows,
             islands: state.islands.iter().map(island).collect(),
-            footholds: Footholds::of(state),
-            archive: state.archive.ids().collect(),
-            from_archive: search.archive.parents,
+            footholds: Footholds::of(state, search.survival),
         }
     }
 
-    /// A parent's string and its expressed string.
-    fn pick(&self, island: usize, rng: &mut Rng) -> Option<(&'a Tokens, &'a Tokens)> {
-        if chance(rng, self.from_archive) && !self.archive.is_empty() {
-            let row = &self.rows[self.archive[below(rng, self.archive.len())]];
-            return Some((&row.tokens, &row.expressed));
-        }
+    /// A parent from the population.
+    fn pick(&self, island: usize, rng: &mut Rng) -> Option<&'a Member> {
         let (members, standings) = &self.islands[island];
-        let member = &members[tournament(standings, rng)?];
-        Some((&member.tokens, &self.rows[member.row as usize].expressed))
+        Some(&members[tournament(standings, rng)?])
     }
 }
 
@@ -384,18 +314,13 @@ fn random<P: Problem>(problem: &P, search: &SearchParams, slot: &mut Slot) -> Dr
     Draft { tokens, operators: bit(Operator::Random), island: slot.island }
 }
 
-/// One string: random, a local step, rule-wise from one parent, or token-wise from one or two.
+/// One string: random, a local step, or token-wise from one or two parents.
 fn draft<P: Problem>(problem: &P, search: &SearchParams, parents: &Parents<'_>, slot: &mut Slot) -> Draft {
     let rng = &mut slot.rng;
     if chance(rng, search.immigrants) {
         return random(problem, search, slot);
     }
-    let made = if search.local > 0.0 && chance(rng, search.local) {
-        local(problem, parents, rng)
-    } else {
-        rule_operator(search, rng)
-            .and_then(|operator| rule_wise(problem, operator, parents, slot.island, rng))
-    };
+    let made = if chance(rng, search.local) { local(problem, parents, slot.island, rng) } else { None };
     let Some((mut tokens, operators)) = made.or_else(|| token_wise(search, parents, slot.island, rng)) else {
         return random(problem, search, slot);
     };
@@ -404,9 +329,17 @@ fn draft<P: Problem>(problem: &P, search: &SearchParams, parents: &Parents<'_>, 
 }
 
 /// One or two steps from what is good so far.
-fn local<P: Problem>(problem: &P, parents: &Parents<'_>, rng: &mut Rng) -> Option<(Tokens, u16)> {
-    let expressed = |row: u32| parents.rows[row as usize].expressed.clone();
-    let (tokens, made_by) = step(problem, &parents.footholds, expressed, rng)?;
+fn local<P: Problem>(
+    problem: &P,
+    parents: &Parents<'_>,
+    island: usize,
+    rng: &mut Rng,
+) -> Option<(Tokens, u16)> {
+    let row = match parents.footholds.draw(rng) {
+        Some(row) => row,
+        None => parents.pick(island, rng)?.row,
+    };
+    let (tokens, made_by) = step(problem, &parents.rows[row as usize].expressed, rng)?;
     Some((tokens, made_by.into_iter().fold(0, |bits, operator| bits | bit(named(operator)))))
 }
 
@@ -417,43 +350,8 @@ fn named(operator: RuleOperator) -> Operator {
         RuleOperator::AppendNatural => Operator::AppendNatural,
         RuleOperator::AppendShort => Operator::AppendShort,
         RuleOperator::AppendDeletion => Operator::AppendDeletion,
-        RuleOperator::DropLast => Operator::DropLast,
         RuleOperator::SwapPair => Operator::SwapPair,
     }
-}
-
-/// Draws a rule-wise operator by its share, or none.
-fn rule_operator(search: &SearchParams, rng: &mut Rng) -> Option<RuleOperator> {
-    let rules = &search.rules;
-    let shares = [
-        (RuleOperator::AppendStrip, rules.append_strip),
-        (RuleOperator::AppendDeletion, rules.append_deletion),
-        (RuleOperator::DropLast, rules.drop_last),
-        (RuleOperator::SwapPair, rules.swap_pair),
-    ];
-    let mut left = unit(rng);
-    let drawn = shares.into_iter().find(|(_, share)| {
-        left -= share;
-        left < 0.0
-    });
-    drawn.map(|(operator, _)| operator)
-}
-
-/// On the parent's expressed string, to which a rule can be appended without changing what comes before.
-fn rule_wise<P: Problem>(
-    problem: &P,
-    operator: RuleOperator,
-    parents: &Parents<'_>,
-    island: usize,
-    rng: &mut Rng,
-) -> Option<(Tokens, u16)> {
-    let (_, expressed) = parents.pick(island, rng)?;
-    let tokens = match operator {
-        RuleOperator::DropLast => drop_last(expressed)?,
-        RuleOperator::SwapPair => swap_pair(expressed, rng)?,
-        _ => problem.vary(operator, expressed, rng)?,
-    };
-    Some((tokens, bit(named(operator))))
 }
 
 /// Crossover of two parents or a copy of one, then insertion, removal and substitution.
@@ -463,11 +361,11 @@ fn token_wise(
     island: usize,
     rng: &mut Rng,
 ) -> Option<(Tokens, u16)> {
-    let (first, _) = parents.pick(island, rng)?;
+    let first = &parents.pick(island, rng)?.tokens;
     let mut operators = 0;
     let mut tokens = if chance(rng, search.crossover) {
-        let (second, _) = parents.pick(island, rng)?;
-        let (kind, child) = crossover(first, second, &search.crossover_kinds, search.tokens, rng);
+        let second = &parents.pick(island, rng)?.tokens;
+        let (kind, child) = crossover(first, second, search.tokens, rng);
         operators |= bit(kind);
         child
     } else {

@@ -1,13 +1,10 @@
 //! Local steps: a good design found so far, and one or two strips more or less (docs/reference/search.md §2.1).
 
+use super::params::Survival;
 use super::problem::{Problem, RuleOperator};
 use super::state::State;
 use crate::grammar::Tokens;
 use crate::random::{Rng, below, chance, unit};
-
-/// Chance of a parent from the front, and, of the others, of any feasible design. The rest are near misses.
-const FRONT: f64 = 0.6;
-const FEASIBLE: f64 = 0.375;
 
 /// How many of the least violating designs count as near misses.
 const MISSES: usize = 20;
@@ -16,59 +13,51 @@ const MISSES: usize = 20;
 const SECOND: f64 = 0.35;
 
 /// What a step does, by weight.
-const STEPS: [(RuleOperator, f64); 4] = [
-    (RuleOperator::AppendDeletion, 0.35),
-    (RuleOperator::AppendNatural, 0.25),
+const STEPS: [(RuleOperator, f64); 5] = [
+    (RuleOperator::AppendDeletion, 0.3),
     (RuleOperator::AppendStrip, 0.2),
-    (RuleOperator::AppendShort, 0.2),
+    (RuleOperator::AppendNatural, 0.2),
+    (RuleOperator::SwapPair, 0.2),
+    (RuleOperator::AppendShort, 0.1),
 ];
 
-/// Where steps are taken from: rows of all that was evaluated.
+/// Where steps are taken from: rows of the front, or, while nothing is feasible, of the nearest misses. None where the front holds
+/// most designs, good or bad: then parents are those of the population (docs/search.md).
 #[derive(Debug)]
-pub(crate) struct Footholds {
-    front: Vec<u32>,
-    feasible: Vec<u32>,
-    misses: Vec<u32>,
-}
+pub(crate) struct Footholds(Vec<u32>);
 
 impl Footholds {
-    pub(crate) fn of(state: &State) -> Self {
-        let rows = || state.rows.iter().zip(0u32..);
-        let mut misses: Vec<u32> = rows().filter(|(row, _)| !row.is_feasible()).map(|(_, i)| i).collect();
+    pub(crate) fn of(state: &State, survival: Survival) -> Self {
+        let objectives = state.front.points().next().map_or(0, <[f64]>::len);
+        if survival.by_hypervolume(objectives) {
+            return Self(Vec::new());
+        }
+        let front: Vec<u32> = state.front.ids().map(|id| id as u32).collect();
+        if !front.is_empty() {
+            return Self(front);
+        }
+        let mut misses: Vec<u32> = (0..state.rows.len() as u32).collect();
         misses.sort_by(|&a, &b| {
             let [a, b] = [a, b].map(|i| state.rows[i as usize].violation);
             a.total_cmp(b)
         });
         misses.truncate(MISSES);
-        Self {
-            front: state.front.ids().map(|id| id as u32).collect(),
-            feasible: rows().filter(|(row, _)| row.is_feasible()).map(|(_, i)| i).collect(),
-            misses,
-        }
+        Self(misses)
     }
 
-    /// A row to start from; `None` before anything was evaluated.
-    fn draw(&self, rng: &mut Rng) -> Option<u32> {
-        let wanted = if chance(rng, FRONT) {
-            &self.front
-        } else if chance(rng, FEASIBLE) {
-            &self.feasible
-        } else {
-            &self.misses
-        };
-        let rows = [wanted, &self.front, &self.misses].into_iter().find(|rows| !rows.is_empty())?;
-        Some(rows[below(rng, rows.len())])
+    /// A row to start from; `None` where there is none.
+    pub(crate) fn draw(&self, rng: &mut Rng) -> Option<u32> {
+        (!self.0.is_empty()).then(|| self.0[below(rng, self.0.len())])
     }
 }
 
-/// A string one or two steps from a foothold, and the operators that made it; `None` where no step applies.
+/// A string one or two steps from an expressed one, and the operators that made it; `None` where no step applies.
 pub(crate) fn step<P: Problem>(
     problem: &P,
-    footholds: &Footholds,
-    expressed: impl Fn(u32) -> Tokens,
+    expressed: &Tokens,
     rng: &mut Rng,
 ) -> Option<(Tokens, Vec<RuleOperator>)> {
-    let mut tokens = expressed(footholds.draw(rng)?);
+    let mut tokens = expressed.clone();
     let mut made_by = Vec::new();
     let steps = if chance(rng, SECOND) { 2 } else { 1 };
     for _ in 0..steps {

@@ -1,4 +1,4 @@
-//! The search over strings: breeding, duplicates, cache, archive, checkpoint (docs/reference/search.md).
+//! The search over strings: breeding, duplicates, cache, checkpoint (docs/reference/search.md).
 //!
 //! [`run`] knows strings, codes and numbers. What a string means and what it is worth it asks of a [`Problem`],
 //! through a [`Server`] that evaluates batches.
@@ -15,7 +15,6 @@ mod outcome;
 pub mod params;
 mod problem;
 mod record;
-mod screening;
 mod server;
 mod state;
 mod stop;
@@ -27,7 +26,7 @@ pub use normalise::{ENOUGH, Normalisation, quantile};
 pub use observer::{Observer, Progress, Silent};
 pub use outcome::{Ended, Outcome};
 pub use params::{ObjectivesParams, SearchParams};
-pub use problem::{Evaluation, Identity, Preview, Problem, RuleOperator, Steps, round_significant};
+pub use problem::{Evaluation, Identity, Problem, RuleOperator, Steps, round_significant};
 pub use record::{Breeding, EvaluatedRow, GenerationRow, Metrics, OperatorCount};
 pub use server::{Server, ThreadServer, evaluate};
 pub use state::Settings;

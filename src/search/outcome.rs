@@ -68,7 +68,7 @@ pub(super) fn sorted_front(rows: &[EvaluatedRow], front: &NonDominated) -> Vec<u
 pub(super) fn total(generations: &[GenerationRow]) -> Breeding {
     let mut total =
         Breeding { operators: vec![OperatorCount::default(); OPERATORS.len()], ..Breeding::default() };
-    for Breeding { bred, duplicates, neighbours, rejected, cached, screened, immigrants, empty, operators } in
+    for Breeding { bred, duplicates, neighbours, rejected, cached, immigrants, empty, operators } in
         generations.iter().map(|g| &g.breeding)
     {
         total.bred += bred;
@@ -76,7 +76,6 @@ pub(super) fn total(generations: &[GenerationRow]) -> Breeding {
         total.neighbours += neighbours;
         total.rejected += rejected;
         total.cached += cached;
-        total.screened += screened;
         total.immigrants += immigrants;
         total.empty += empty;
         for (sum, count) in total.operators.iter_mut().zip(operators) {

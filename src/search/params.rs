@@ -67,24 +67,17 @@ pub struct SearchParams {
     pub frozen: FrozenParams,
     /// Whether strips may be added that end in poles.
     pub poles: bool,
-    /// Share of children that are one or two steps away from a good design found so far.
+    /// Share of children that are one or two steps away from a good design found so far: a strip added, deleted, or with other ends. The
+    /// rest are bred token-wise.
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub local: f64,
     /// Probability that a child bred token-wise has two parents.
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub crossover: f64,
-    /// How often which kind of crossover, relative to each other.
-    pub crossover_kinds: CrossoverKinds,
     /// Token-wise mutation, rates per token.
     pub mutation: MutationParams,
-    /// Rule-wise operators, shares of all children; the rest are bred token-wise.
-    pub rules: RuleParams,
     /// How the last front that survives is cut.
     pub survival: Survival,
-    /// How many candidates are bred for each place, of which geometry chooses one to be analysed; 1 = no choice. Only
-    /// where it tells some of the objectives, and while at least half of the designs come as far as the analysis.
-    #[schemars(extend("minimum" = 1, "maximum" = 100))]
-    pub screen: usize,
     /// Share of children that are random strings, without parents; 1 = random search.
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub immigrants: f64,
@@ -95,15 +88,13 @@ pub struct SearchParams {
     pub rebreed_rejected: bool,
     /// Which phenotypes count as the same.
     pub duplicates: DuplicateParams,
-    /// The bounded archive that parents may come from.
-    pub archive: ArchiveParams,
 }
 
 impl Default for SearchParams {
     fn default() -> Self {
         Self {
             population: 16,
-            generations: 75,
+            generations: 45,
             evaluations: None,
             minutes: None,
             stall_generations: None,
@@ -114,18 +105,14 @@ impl Default for SearchParams {
             seeds: Seeds::default(),
             frozen: FrozenParams::default(),
             poles: true,
-            local: 0.0,
+            local: 0.8,
             crossover: 0.9,
-            crossover_kinds: CrossoverKinds::default(),
             mutation: MutationParams::default(),
-            rules: RuleParams::default(),
             survival: Survival::Auto,
-            screen: 1,
             immigrants: 0.0,
             refills: 3,
             rebreed_rejected: true,
             duplicates: DuplicateParams::default(),
-            archive: ArchiveParams::default(),
         }
     }
 }
@@ -135,20 +122,9 @@ impl SearchParams {
     pub fn first(&self) -> usize {
         let all = self.population.saturating_mul(self.islands);
         match self.initial.kind {
-            Initialiser::Near => all.max(self.near(all)),
-            _ => all,
+            Initialiser::Near => all.max(self.initial.near),
+            Initialiser::Aware => all,
         }
-    }
-
-    /// The share of the budget that goes to the neighbourhood of the initial mesh, in designs.
-    fn near(&self, generation: usize) -> usize {
-        let share = self.initial.near_share;
-        let designs = match self.evaluations {
-            Some(budget) => share * budget as f64,
-            // The later generations are the rest of all designs.
-            None => share / (1.0 - share) * generation as f64 * f64::from(self.generations),
-        };
-        designs as usize
     }
 }
 
@@ -173,16 +149,16 @@ impl Default for TokenBounds {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct InitialParams {
-    /// How random strings are made.
+    /// Where they come from.
     pub kind: Initialiser,
-    /// Which share of all designs the neighbourhood of the initial mesh may take, where `kind` is `near`.
-    #[schemars(extend("minimum" = 0, "exclusiveMaximum" = 1))]
-    pub near_share: f64,
+    /// How many designs near the initial mesh are looked at first, where `kind` is `near` and there are so many: a good part of the whole
+    /// budget.
+    pub near: usize,
 }
 
 impl Default for InitialParams {
     fn default() -> Self {
-        Self { kind: Initialiser::Aware, near_share: 0.4 }
+        Self { kind: Initialiser::Near, near: 160 }
     }
 }
 
@@ -212,18 +188,14 @@ pub struct FrozenParams {
     pub regions_m: Vec<Vec<[f64; 2]>>,
 }
 
-/// How random strings are made.
+/// Where the first designs come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Initialiser {
-    /// All tokens equally likely.
-    Uniform,
-    /// A's in pairs with two or more T's between.
-    Structured,
-    /// As structured, but follows the decoding and closes a pair only where that is applicable.
-    Aware,
-    /// The neighbourhood of the initial mesh, in a fixed order; random strings, where there is need of them, as `aware`.
+    /// The neighbourhood of the initial mesh, in a fixed order; then, where there is need of them, as `aware`.
     Near,
+    /// Random strings that follow the decoding, and close a pair only where that is applicable.
+    Aware,
 }
 
 /// Which designs of the last front that survives stay: whole fronts before it always do.
@@ -250,54 +222,6 @@ impl Survival {
             Self::Crowding => false,
             Self::Hypervolume => true,
         }
-    }
-}
-
-/// Weights of the kinds of crossover; only their ratios matter.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct CrossoverKinds {
-    /// One cut at the same place in both parents.
-    #[schemars(extend("minimum" = 0))]
-    pub one_point: f64,
-    /// A middle piece exchanged, cut at the same places in both parents.
-    #[schemars(extend("minimum" = 0))]
-    pub two_point: f64,
-    /// One cut, at a place of its own in each parent.
-    #[schemars(extend("minimum" = 0))]
-    pub cut_and_splice: f64,
-    /// One cut at the end of a rule in each parent.
-    #[schemars(extend("minimum" = 0))]
-    pub rule_ends: f64,
-}
-
-impl Default for CrossoverKinds {
-    fn default() -> Self {
-        Self { one_point: 1.0, two_point: 1.0, cut_and_splice: 1.0, rule_ends: 1.0 }
-    }
-}
-
-/// Rule-wise operators: the share of all children each of them makes from one parent. The rest are bred token-wise.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct RuleParams {
-    /// Append a strip along a valid polyedge reached by the shortest walk.
-    #[schemars(extend("minimum" = 0, "maximum" = 1))]
-    pub append_strip: f64,
-    /// Append the deletion of a strip reached by the shortest walk.
-    #[schemars(extend("minimum" = 0, "maximum" = 1))]
-    pub append_deletion: f64,
-    /// Drop the last rule.
-    #[schemars(extend("minimum" = 0, "maximum" = 1))]
-    pub drop_last: f64,
-    /// Swap `A`, `A*` and `A°` of a pair.
-    #[schemars(extend("minimum" = 0, "maximum" = 1))]
-    pub swap_pair: f64,
-}
-
-impl Default for RuleParams {
-    fn default() -> Self {
-        Self { append_strip: 0.3, append_deletion: 0.2, drop_last: 0.05, swap_pair: 0.15 }
     }
 }
 
@@ -357,26 +281,5 @@ pub struct EquivalenceParams {
 impl Default for EquivalenceParams {
     fn default() -> Self {
         Self { placed: true, reduce: true, mirror: false }
-    }
-}
-
-/// The bounded ε-grid archive.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct ArchiveParams {
-    /// Side of a grid box, as a share of each normalised objective.
-    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
-    pub epsilon: f64,
-    /// Most members.
-    #[schemars(extend("minimum" = 1))]
-    pub max: usize,
-    /// Share of parents drawn from it rather than from the population.
-    #[schemars(extend("minimum" = 0, "maximum" = 1))]
-    pub parents: f64,
-}
-
-impl Default for ArchiveParams {
-    fn default() -> Self {
-        Self { epsilon: 0.01, max: 200, parents: 0.0 }
     }
 }

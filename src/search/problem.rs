@@ -16,17 +16,6 @@ pub trait Problem: Sync {
     /// [`Identity::code`] must give the same evaluation, since only one of them is ever evaluated.
     fn evaluate(&self, tokens: &Tokens) -> Evaluation;
 
-    /// Whether some objectives are known before the structure is analysed, and others only after. If so,
-    /// [`Self::preview`] may be asked of several candidates, of which one is evaluated.
-    fn has_preview(&self) -> bool {
-        false
-    }
-
-    /// What is known of a design before its structure is analysed.
-    fn preview(&self, _tokens: &Tokens) -> Preview {
-        Preview::unknown(Violation::NONE)
-    }
-
     /// The designs to go on from, evaluated first.
     fn seeds(&self) -> Vec<Tokens> {
         Vec::new()
@@ -41,8 +30,7 @@ pub trait Problem: Sync {
         Vec::new()
     }
 
-    /// Applies a rule-wise operator that has to follow the decoding (`Append…` of
-    /// [`RuleOperator`]) to a parent's expressed string; `None` where it does not apply.
+    /// Applies a rule-wise operator to a parent's expressed string; `None` where it does not apply.
     fn vary(&self, operator: RuleOperator, expressed: &Tokens, rng: &mut Rng) -> Option<Tokens>;
 }
 
@@ -66,8 +54,6 @@ pub enum RuleOperator {
     AppendShort,
     /// Append the deletion of a strip reached by the shortest walk.
     AppendDeletion,
-    /// Drop the last rule.
-    DropLast,
     /// Swap `A`, `A*` and `A°` of one pair.
     SwapPair,
 }
@@ -88,22 +74,6 @@ pub struct Identity {
     /// Why topology alone already rules the design out (pinched, flat faces), if it does. Such a design may be bred
     /// anew without being evaluated; [`Problem::evaluate`] must give the same violation and reason.
     pub rejected: Option<(Violation, String)>,
-}
-
-/// What is known of a design before its structure is analysed.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Preview {
-    /// Stage and measure of a failure that is known by then.
-    pub violation: Violation,
-    /// The objectives in the order of the config, rounded to 10 significant digits; `None` for those that are not known.
-    pub objectives: Vec<Option<f64>>,
-}
-
-impl Preview {
-    /// Of a design without a pattern.
-    pub fn unknown(violation: Violation) -> Self {
-        Self { violation, objectives: Vec::new() }
-    }
 }
 
 /// The result of evaluating one design.

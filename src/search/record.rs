@@ -137,8 +137,6 @@ pub struct Breeding {
     pub rejected: u64,
     /// Not evaluated, because a design of the same placed + reduced code was before (`min_distance` = 0).
     pub cached: u64,
-    /// Candidates passed over because geometry promised less of them than of another.
-    pub screened: u64,
     /// Slots filled by a random string after `tries` refusals.
     pub immigrants: u64,
     /// Slots left empty because random strings were refused too.

@@ -6,18 +6,14 @@ use std::sync::mpsc;
 
 use rayon::prelude::*;
 
-use super::problem::{Evaluation, Identity, Preview, Problem};
+use super::problem::{Evaluation, Identity, Problem};
 use super::threads::{ThreadsError, thread_pool};
-use crate::evolve::{FAILED, Violation};
 use crate::grammar::Tokens;
 
 /// Evaluates batches of strings.
 pub trait Server {
     /// What each string means, in order; `Err` with a message where identifying it panicked.
     fn identify(&self, batch: &[Tokens]) -> Vec<Result<Identity, String>>;
-
-    /// Previews `batch`, in order. Once `stop` returns true nothing new is begun, and what was not begun is `None`.
-    fn preview(&self, batch: &[Tokens], stop: &(dyn Fn() -> bool + Sync)) -> Vec<Option<Preview>>;
 
     /// Evaluates `batch` and hands each result over with its index as soon as it is there, in any order, on the
     /// caller's thread. Once `stop` returns true nothing new is begun, and what is in flight is still handed over.
@@ -53,15 +49,6 @@ impl<P: Problem> Server for ThreadServer<'_, P> {
             identity.map_err(|panic| format!("panic: {}", message(&*panic)))
         };
         self.pool.install(|| batch.par_iter().map(identify).collect())
-    }
-
-    fn preview(&self, batch: &[Tokens], stop: &(dyn Fn() -> bool + Sync)) -> Vec<Option<Preview>> {
-        let preview = |tokens: &Tokens| {
-            let preview = || catch_unwind(AssertUnwindSafe(|| self.problem.preview(tokens)));
-            (!stop()).then(|| preview().unwrap_or_else(|_| Preview::unknown(Violation::new(FAILED, 0.0))))
-        };
-        // One by one, since some take far longer than others.
-        self.pool.install(|| batch.par_iter().with_max_len(1).map(preview).collect())
     }
 
     fn serve(

@@ -8,7 +8,7 @@ use super::normalise::{Normalisation, Volume, extremes};
 use super::params::SearchParams;
 use super::problem::Evaluation;
 use super::record::{Breeding, EvaluatedRow, GenerationRow};
-use crate::evolve::{EpsilonArchive, Fitness, NonDominated, standings, survive, survive_by_contribution};
+use crate::evolve::{Fitness, NonDominated, standings, survive, survive_by_contribution};
 use crate::grammar::Tokens;
 use crate::mesh::canonical::Code;
 
@@ -52,7 +52,6 @@ pub(crate) struct State {
     pub(crate) generations: Vec<GenerationRow>,
     pub(crate) known: Known,
     pub(crate) front: NonDominated,
-    pub(crate) archive: EpsilonArchive,
     volume: Option<Volume>,
     structural: u64,
     feasible: u64,
@@ -67,7 +66,6 @@ impl State {
             generations: Vec::new(),
             known: Known::new(search.duplicates.min_distance),
             front: NonDominated::default(),
-            archive: EpsilonArchive::new(search.archive.epsilon, search.archive.max),
             volume: None,
             structural: 0,
             feasible: 0,
@@ -83,14 +81,13 @@ impl State {
     ) -> Self {
         let mut state = Self::new(&settings.search);
         let mut rows = rows.into_iter().peekable();
-        // Generation by generation, because the archive depends on when the normalisation became known.
+        // Generation by generation, because the axes depend on what was known when they were fixed.
         for generation in generations {
-            let first = state.rows.len();
             while let Some(indexed) = rows.next_if(|i| i.row.generation == generation.generation) {
                 state.known.insert(indexed.row.code, &indexed.neighbourhood, state.rows.len() as u32);
                 state.take(indexed.row);
             }
-            state.grow_archive(settings, first);
+            state.normalise(settings);
             state.generations.push(generation);
         }
         let before = state.generations.last().and_then(|g| g.hypervolume).unwrap_or(0.0);
@@ -118,7 +115,7 @@ impl State {
         self.volume.as_ref().map(Volume::normalisation)
     }
 
-    /// Takes in an evaluated generation: rows, front, archive, hypervolume, and who survives.
+    /// Takes in an evaluated generation: rows, front, hypervolume, and who survives.
     ///
     /// `children` in the order in which they were accepted; an `Evaluation` for each that is new. A `None` there
     /// (the run was cut short) drops the child.
@@ -159,10 +156,7 @@ impl State {
         if (generation + 1).is_multiple_of(settings.search.migrate) {
             self.migrate(settings);
         }
-        let unseen = self.grow_archive(settings, first);
-        if let Some(volume) = &mut self.volume {
-            volume.update(&self.front, |id| id >= unseen);
-        }
+        self.measure(settings, first);
         let row = self.generation_row(generation, first, breeding);
         self.generations.push(row);
     }
@@ -221,24 +215,25 @@ impl State {
         entered
     }
 
-    /// Brings the archive up to date with the rows from `first` on; once the normalisation is known, which may be
-    /// now. Returns the first row that the hypervolume has not seen.
-    fn grow_archive(&mut self, settings: &Settings, first: usize) -> usize {
-        let mut unseen = first;
+    /// Measures the front, once the normalisation is known, which may be now. `first` is the first row that is new.
+    fn measure(&mut self, settings: &Settings, first: usize) {
+        let known = self.volume.is_some();
+        self.normalise(settings);
+        let unseen = if known { first } else { 0 };
+        if let Some(volume) = &mut self.volume {
+            volume.update(&self.front, |id| id >= unseen);
+        }
+    }
+
+    /// Fixes the axes, if there are enough feasible designs to take them from.
+    fn normalise(&mut self, settings: &Settings) {
         if self.volume.is_none() {
             let feasible: Vec<&[f64]> =
                 self.rows.iter().filter(|r| r.is_feasible()).map(|r| &*r.objectives).collect();
             self.volume =
                 Normalisation::establish(&settings.ideal, &settings.reference, feasible.into_iter())
                     .map(Volume::new);
-            unseen = 0;
         }
-        if let Some(volume) = &self.volume {
-            for (id, row) in self.rows.iter().enumerate().skip(unseen).filter(|(_, row)| row.is_feasible()) {
-                self.archive.offer(id, &volume.normalisation().apply(&row.objectives));
-            }
-        }
-        unseen
     }
 
     fn generation_row(&self, generation: u32, first: usize, breeding: Breeding) -> GenerationRow {

@@ -3,12 +3,13 @@
 use crate::support::great_court;
 use quadrille::geometry::params::{Pinched, RelaxParams};
 use quadrille::geometry::{PatternParams, Shaped, metrics, shape, topological_rejection};
+use quadrille::grammar::random::{self, Shares};
 use quadrille::grammar::{Rules, Tokens, decode};
 use quadrille::mesh::isomorphism::canonical_mesh;
 use quadrille::mesh::{BaseMesh, CanonicalMesh, Code, InitialMesh, QuadMesh};
 use quadrille::random::{Rng, below, stream};
 use quadrille::search::operators::Growth;
-use quadrille::search::params::{Initialiser, TokenBounds};
+use quadrille::search::params::TokenBounds;
 use quadrille::study::Study;
 use std::collections::BTreeMap;
 
@@ -21,8 +22,11 @@ fn params() -> PatternParams {
 fn random_string(initial: &InitialMesh, index: u32) -> Tokens {
     let bounds = TokenBounds { min: 6, max: 20 };
     let growth = Growth { initial, rules: Rules::Domain, bounds };
-    let kind = if index.is_multiple_of(2) { Initialiser::Structured } else { Initialiser::Aware };
-    growth.random(kind, &mut stream(11, 0, index))
+    let mut rng = stream(11, 0, index);
+    match index.is_multiple_of(2) {
+        true => random::structured(&mut rng, bounds.min..=bounds.max, &Shares::default()),
+        false => growth.random(&mut rng),
+    }
 }
 
 /// All numbers of a developed design, or why it has none, to the last bit.

@@ -227,7 +227,10 @@ fn set_is_checked_alike() {
             "found 5000000000; allowed: a whole number ≥ 1 and ≤ 100",
         ),
         ("search.population=1000000000000", "allowed: a whole number ≥ 2 and ≤ 1000000"),
-        ("search.rules.drop_last=0.9", "found shares that add up to 1.55; allowed: at most 1"),
+        ("search.rules.drop_last=0.9", "search.rules: unknown key: it is gone: search.local is the share"),
+        ("search.archive.parents=0.2", "search.archive: unknown key: it is gone"),
+        ("search.screen=3", "search.screen: unknown key: it is gone"),
+        ("search.crossover_kinds.one_point=3", "search.crossover_kinds: unknown key: it is gone"),
         ("pattern.max_faces=100000000000", "found 100000000000; allowed: a whole number ≥ 1 and ≤ 10000000"),
     ] {
         let (stderr, code) = run(&configs, &["check", "dome.toml", "--set", set]);

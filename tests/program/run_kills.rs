@@ -152,7 +152,7 @@ fn killed_at_random_moments_and_resumed_each_time() {
 fn stopped_by_signals_with_a_command_that_goes_on() {
     for (signal, code) in [("INT", 130), ("TERM", 143)] {
         let folder = TempDir::new().unwrap();
-        let child = begin_and_wait(folder.path(), 30);
+        let child = begin_and_wait(folder.path(), 55);
         assert!(
             Command::new("kill").args(["-s", signal, &child.id().to_string()]).status().unwrap().success()
         );
@@ -270,7 +270,7 @@ fn signals_that_come_together_are_one() {
     // As `timeout` sends them, to the program and to its group; and as a terminal that is closed does.
     for signals in [["TERM", "TERM"], ["INT", "TERM"], ["INT", "INT"]] {
         let folder = TempDir::new().unwrap();
-        let child = begin_and_wait(folder.path(), 30);
+        let child = begin_and_wait(folder.path(), 55);
         signals.iter().for_each(|signal| send(&child, signal));
         let output = child.wait_with_output().unwrap();
         let exit = output.status.code();

@@ -64,51 +64,25 @@ fn islands_are_the_same_for_any_number_of_threads_and_exchange_their_best() {
 
 #[test]
 fn what_is_near_comes_first_in_a_fixed_order_and_each_design_once() {
-    let first = |seed: u64, budget: Option<u64>, share: f64| {
+    let first = |seed: u64, near: usize| {
         let mut settings = island_settings(3);
-        (settings.seed, settings.search.evaluations) = (seed, budget);
-        settings.search.initial.near_share = share;
+        (settings.seed, settings.search.initial.near) = (seed, near);
         let outcome = run_silently(&Counting::new(), &settings, 2);
         let strings = outcome.evaluated.iter().filter(|row| row.generation == 0);
         strings.map(|row| row.tokens.to_string()).collect::<Vec<_>>()
     };
-    let found = first(1, None, 0.4);
-    assert_eq!(found.len(), 36, "0.4 of what three generations of 18 are 0.6 of");
-    assert_eq!(first(2, None, 0.4), found, "no chance involved");
+    let found = first(1, 36);
+    assert_eq!(found.len(), 36);
+    assert_eq!(first(2, 36), found, "no chance involved");
     // One step, then two, from each of them in order.
     assert_eq!(found[..9], ["", "D", "PD", "PPD", "TD", "PTD", "ATA", "ATTA", "AoTAo"]);
     assert_eq!(found[9..12], ["DD", "DPD", "DPPD"]);
     assert!(!found.contains(&"PDD".to_owned()), "as DPD");
-    assert_eq!(first(1, Some(100), 0.3), found[..30]);
-    assert_eq!(first(1, Some(1000), 0.005), found[..18], "the population at least");
-    let all = first(1, Some(1000), 0.4);
+    assert_eq!(first(1, 30), found[..30]);
+    assert_eq!(first(1, 5), found[..18], "the population at least");
+    let all = first(1, 1000);
     let simple = all.iter().position(|string| string == "TATA*").expect("the simple polyedges come last");
     assert_eq!((all.len(), all[simple + 1].as_str()), (simple + 2, "PPATA"), "and then nothing is left");
-}
-
-#[test]
-fn geometry_chooses_among_candidates() {
-    let search = |screen: usize, planted: Planted, threads: usize| {
-        let problem = Counting { previews: true, planted, ..Counting::new() };
-        let mut settings = settings(12);
-        settings.search.screen = screen;
-        run_silently(&problem, &settings, threads)
-    };
-    let (plain, screened) = (search(1, Planted::Nothing, 1), search(3, Planted::Nothing, 1));
-    assert_eq!(plain, run_silently(&Counting::new(), &settings(12), 1), "one candidate is no choice");
-    let Breeding { bred, duplicates, rejected, screened: passed_over, .. } = screened.breeding;
-    assert!(passed_over > screened.evaluated.len() as u64, "{passed_over} passed over");
-    assert_eq!(bred, duplicates + rejected + passed_over + screened.evaluated.len() as u64 - 1);
-    // What geometry knows to be infeasible is analysed only where nothing else was bred.
-    let infeasible =
-        |o: &Outcome| o.evaluated.iter().filter(|r| r.generation > 1 && !r.is_feasible()).count();
-    assert!(infeasible(&screened) < infeasible(&plain), "{} {}", infeasible(&screened), infeasible(&plain));
-    for threads in [2, 3, 8] {
-        assert_eq!(search(3, Planted::Nothing, threads), screened, "{threads} threads");
-    }
-    let panicking = search(3, Planted::Panic, 2);
-    assert_eq!(panicking.ended, Ended::Generations);
-    check_front(&panicking);
 }
 
 #[test]

@@ -7,10 +7,10 @@ use quadrille::grammar::random::uniform;
 use quadrille::grammar::{Token, Tokens};
 use quadrille::mesh::canonical::Code;
 use quadrille::random::{Rng, below};
-use quadrille::search::params::{Initialiser, TokenBounds};
+use quadrille::search::params::{InitialParams, Initialiser, TokenBounds};
 use quadrille::search::{
-    Evaluation, Identity, Observer, Outcome, Preview, Problem, RuleOperator, SearchParams, Settings, Silent,
-    Steps, StopFlag, Store, StoreError, ThreadServer, run,
+    Evaluation, Identity, Observer, Outcome, Problem, RuleOperator, SearchParams, Settings, Silent, Steps,
+    StopFlag, Store, StoreError, ThreadServer, run,
 };
 
 /// What happens to the evaluations of one design in ten.
@@ -33,8 +33,6 @@ pub struct Counting {
     pub metrics: usize,
     /// Whether topology rules out half of all designs.
     pub fragile: bool,
-    /// Whether all objectives but the first are known before the analysis.
-    pub previews: bool,
 }
 
 impl Counting {
@@ -46,7 +44,6 @@ impl Counting {
             objectives: 3,
             metrics: 3,
             fragile: false,
-            previews: false,
         }
     }
 
@@ -135,17 +132,6 @@ impl Problem for Counting {
         }
     }
 
-    fn has_preview(&self) -> bool {
-        self.previews
-    }
-
-    fn preview(&self, tokens: &Tokens) -> Preview {
-        let evaluation = self.evaluate(tokens);
-        self.evaluated.fetch_sub(1, Ordering::Relaxed);
-        let known = evaluation.objectives.iter().enumerate().map(|(m, &f)| (m > 0).then_some(f));
-        Preview { violation: evaluation.violation, objectives: known.collect() }
-    }
-
     fn random(&self, rng: &mut Rng) -> Tokens {
         uniform(rng, self.bounds.min..=self.bounds.max)
     }
@@ -176,11 +162,14 @@ pub fn settings(generations: u32) -> Settings {
         population: 16,
         generations,
         tokens: TokenBounds { min: 4, max: 24 },
+        initial: InitialParams { kind: Initialiser::Aware, ..InitialParams::default() },
+        local: 0.5,
         ..SearchParams::default()
     };
     Settings { search, objectives: 3, ideal: vec![], reference: vec![], seed: 7 }
 }
 
+#[allow(dead_code, reason = "every test file uses some of these")]
 /// Three islands that begin near the initial mesh and take local steps.
 pub fn island_settings(generations: u32) -> Settings {
     let mut settings = settings(generations);

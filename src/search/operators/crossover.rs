@@ -2,30 +2,16 @@
 
 use super::{Operator, rule_ends};
 use crate::grammar::Tokens;
-use crate::random::{Rng, below, unit};
-use crate::search::params::{CrossoverKinds, TokenBounds};
+use crate::random::{Rng, below};
+use crate::search::params::TokenBounds;
 
-/// Draws a kind by its weight, and makes a child of `a` and `b` by it.
-pub fn crossover(
-    a: &Tokens,
-    b: &Tokens,
-    kinds: &CrossoverKinds,
-    bounds: TokenBounds,
-    rng: &mut Rng,
-) -> (Operator, Tokens) {
-    let weights = [
-        (Operator::OnePoint, kinds.one_point),
-        (Operator::TwoPoint, kinds.two_point),
-        (Operator::CutAndSplice, kinds.cut_and_splice),
-        (Operator::RuleEnds, kinds.rule_ends),
-    ];
-    let total: f64 = weights.iter().map(|(_, w)| w).sum();
-    let mut left = unit(rng) * total;
-    let drawn = weights.iter().find(|(_, weight)| {
-        left -= weight;
-        left < 0.0
-    });
-    let kind = drawn.map_or(Operator::OnePoint, |(kind, _)| *kind);
+/// The kinds, of which each is as likely as the others.
+const KINDS: [Operator; 4] =
+    [Operator::OnePoint, Operator::TwoPoint, Operator::CutAndSplice, Operator::RuleEnds];
+
+/// Draws a kind, and makes a child of `a` and `b` by it.
+pub fn crossover(a: &Tokens, b: &Tokens, bounds: TokenBounds, rng: &mut Rng) -> (Operator, Tokens) {
+    let kind = KINDS[below(rng, KINDS.len())];
     let child = match kind {
         Operator::TwoPoint => two_point(a, b, rng),
         Operator::CutAndSplice => splice(a, b, &places(a), &places(b), bounds, rng),
@@ -93,14 +79,13 @@ mod tests {
         let a: Tokens = "TTTTTTTTTT".parse().unwrap();
         let b: Tokens = "PPPPPPPPPPPPPPPP".parse().unwrap();
         let bounds = TokenBounds { min: 4, max: 18 };
-        let kinds = CrossoverKinds { one_point: 1.0, two_point: 1.0, cut_and_splice: 1.0, rule_ends: 0.0 };
         let mut seen = std::collections::BTreeSet::new();
         for k in 0..200 {
-            let (kind, child) = crossover(&a, &b, &kinds, bounds, &mut stream(5, k, 0));
+            let (kind, child) = crossover(&a, &b, bounds, &mut stream(5, k, 0));
             assert!((4..=18).contains(&child.len()), "{child}");
             seen.insert(kind);
         }
-        assert_eq!(seen.len(), 3);
+        assert_eq!(seen.len(), 4);
     }
 
     #[test]
@@ -108,9 +93,11 @@ mod tests {
         let a: Tokens = "PATTADPP".parse().unwrap();
         let b: Tokens = "TDTA*TTAoP".parse().unwrap();
         let bounds = TokenBounds { min: 0, max: 40 };
-        let kinds = CrossoverKinds { one_point: 0.0, two_point: 0.0, cut_and_splice: 0.0, rule_ends: 1.0 };
         for k in 0..100 {
-            let child = crossover(&a, &b, &kinds, bounds, &mut stream(6, k, 0)).1;
+            let (kind, child) = crossover(&a, &b, bounds, &mut stream(6, k, 0));
+            if kind != Operator::RuleEnds {
+                continue;
+            }
             assert_eq!(child.iter().filter(|t| t.is_addition()).count() % 2, 0, "{child}");
         }
     }

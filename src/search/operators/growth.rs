@@ -4,12 +4,12 @@ use super::append_deletion::append_deletion;
 use super::append_path::{append_natural, append_short};
 use super::append_strip::append_strip;
 use super::neighbours::{Reach, additions, deletions, natural_additions};
-use super::{drop_last, swap_pair};
+use super::swap_pair::swap_pair;
 use crate::grammar::random::{self, Shares};
 use crate::grammar::{Rules, Token, Tokens, Walker};
 use crate::mesh::InitialMesh;
 use crate::random::Rng;
-use crate::search::params::{Initialiser, TokenBounds};
+use crate::search::params::TokenBounds;
 use crate::search::problem::{RuleOperator, Steps};
 
 /// Most edges of the simple polyedges along which strips near the initial mesh are added.
@@ -29,15 +29,8 @@ pub struct Growth<'a> {
 
 impl Growth<'_> {
     /// A random string.
-    pub fn random(&self, kind: Initialiser, rng: &mut Rng) -> Tokens {
-        let (lengths, shares) = (self.bounds.min..=self.bounds.max, Shares::default());
-        match kind {
-            Initialiser::Uniform => random::uniform(rng, lengths),
-            Initialiser::Structured => random::structured(rng, lengths, &shares),
-            Initialiser::Aware | Initialiser::Near => {
-                random::aware(rng, lengths, &shares, self.initial, self.rules)
-            }
-        }
+    pub fn random(&self, rng: &mut Rng) -> Tokens {
+        random::aware(rng, self.bounds.min..=self.bounds.max, &Shares::default(), self.initial, self.rules)
     }
 
     /// A rule-wise operator on an expressed string; `None` where it does not apply.
@@ -51,7 +44,6 @@ impl Growth<'_> {
                 append_natural(&self.read(expressed), expressed, self.bounds.max, rng)
             }
             RuleOperator::AppendShort => append_short(&self.read(expressed), expressed, self.bounds.max, rng),
-            RuleOperator::DropLast => drop_last(expressed),
             RuleOperator::SwapPair => swap_pair(expressed, rng),
         }
     }
@@ -128,7 +120,7 @@ mod tests {
         let growth = growth(&initial);
         let (mut tokens, mut applied, mut rules) = (0, 0, 0);
         for k in 0..300 {
-            let string = growth.random(Initialiser::Aware, &mut stream(3, k, 0));
+            let string = growth.random(&mut stream(3, k, 0));
             assert!((4..=40).contains(&string.len()));
             let decoded = decode(&initial, &string, Rules::Domain);
             tokens += string.iter().filter(|t| t.is_addition()).count();
@@ -146,7 +138,7 @@ mod tests {
         let mut appended = [0, 0];
         for k in 0..200 {
             let mut rng = stream(4, k, 0);
-            let string = growth.random(Initialiser::Aware, &mut rng);
+            let string = growth.random(&mut rng);
             let before = decode(&initial, &string, Rules::Domain).expressed;
             for (n, operator) in
                 [RuleOperator::AppendStrip, RuleOperator::AppendDeletion].into_iter().enumerate()

@@ -4,7 +4,6 @@ mod append_deletion;
 mod append_path;
 mod append_strip;
 mod crossover;
-mod drop_last;
 mod growth;
 mod insert;
 mod neighbours;
@@ -21,13 +20,11 @@ use crate::grammar::{Token, Tokens};
 use crate::random::{Rng, below};
 
 pub use crossover::crossover;
-pub use drop_last::drop_last;
 pub use growth::Growth;
 pub use insert::insert;
 pub use neighbours::Reach;
 pub use remove::remove;
 pub use substitute::substitute;
-pub use swap_pair::swap_pair;
 
 /// Everything that can have a part in making a string. A string may owe itself to several of them.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -58,14 +55,12 @@ pub enum Operator {
     AppendShort,
     /// A deletion appended.
     AppendDeletion,
-    /// The last rule dropped.
-    DropLast,
     /// `A`, `A*` and `A°` of a pair swapped.
     SwapPair,
 }
 
 /// All operators, in the order in which they are counted and listed.
-pub const OPERATORS: [Operator; 15] = [
+pub const OPERATORS: [Operator; 14] = [
     Operator::Random,
     Operator::Near,
     Operator::OnePoint,
@@ -79,7 +74,6 @@ pub const OPERATORS: [Operator; 15] = [
     Operator::AppendNatural,
     Operator::AppendShort,
     Operator::AppendDeletion,
-    Operator::DropLast,
     Operator::SwapPair,
 ];
 
@@ -100,7 +94,6 @@ impl Operator {
             Self::AppendNatural => "append_natural",
             Self::AppendShort => "append_short",
             Self::AppendDeletion => "append_deletion",
-            Self::DropLast => "drop_last",
             Self::SwapPair => "swap_pair",
         }
     }

@@ -13,7 +13,7 @@ const KINDS: [[Token; 2]; 5] = [
 ];
 
 /// Gives one pair of an expressed string another meaning; `None` if there is no pair.
-pub fn swap_pair(expressed: &Tokens, rng: &mut Rng) -> Option<Tokens> {
+pub(super) fn swap_pair(expressed: &Tokens, rng: &mut Rng) -> Option<Tokens> {
     let additions: Vec<usize> = (0..expressed.len()).filter(|&k| expressed[k].is_addition()).collect();
     let pairs: Vec<&[usize]> = additions.chunks_exact(2).collect();
     if pairs.is_empty() {
