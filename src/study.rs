@@ -9,11 +9,11 @@ mod supports;
 mod symmetry;
 
 use crate::config::{self, Config};
+use crate::domain::params::Pinched;
 use crate::domain::{self, Domain, DomainError};
 use crate::evolve::{FAILED, Violation};
 use crate::geometry::limits::{self, LimitExcess, Limits};
 use crate::geometry::metrics::{self, Fabrication};
-use crate::geometry::params::{Pinched, RulesParam};
 use crate::geometry::{self, Pattern, PatternParams, Rejection, Shaped};
 use crate::grammar::{self, Decoded, Rules, Tokens};
 use crate::io::Inputs;
@@ -28,6 +28,7 @@ use crate::search::params::EquivalenceParams;
 use crate::search::{
     Evaluation, Identity, Preview, Problem, RuleOperator, SearchParams, Steps, round_significant,
 };
+use crate::skeleton::params::RulesParam;
 use crate::skeleton::{self, InitialError};
 use crate::structure::StructureParams;
 use crate::structure::gridshell::{self, AnalysisError, Detailed, Proof, Response};

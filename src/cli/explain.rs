@@ -2,11 +2,12 @@
 
 use super::folder_args::{FolderArgs, find};
 use super::{CliError, Console};
+use quadrille::files::atomic;
+use quadrille::files::names::EXPLAINED;
 use quadrille::objectives::METRICS;
-use quadrille::output::atomic;
 use quadrille::output::designs::id;
 use quadrille::output::explanation::explanation;
-use quadrille::output::folder::{self, EXPLAINED};
+use quadrille::output::folder;
 use quadrille::output::load::Loaded;
 use quadrille::output::number::significant;
 use quadrille::output::results::Developed;

@@ -1,12 +1,12 @@
 //! A folder as an argument: one to write into, or a results folder, read back.
 
 use super::{CliError, Console};
+use quadrille::files::lock::Lock;
 use quadrille::grammar::Tokens;
 use quadrille::mesh::Code;
 use quadrille::output::designs::{digits, id};
 use quadrille::output::inputs;
 use quadrille::output::load::{self, Loaded};
-use quadrille::output::lock::Lock;
 use quadrille::search::EvaluatedRow;
 use quadrille::study::Study;
 use std::path::{Path, PathBuf};

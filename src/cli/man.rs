@@ -4,7 +4,7 @@ use super::folder_args::refuse_file;
 use super::stdout::print_result;
 use super::{CliError, help};
 use clap::CommandFactory;
-use quadrille::output::atomic;
+use quadrille::files::atomic;
 use std::path::PathBuf;
 use std::process::ExitCode;
 

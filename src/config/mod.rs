@@ -25,8 +25,9 @@ pub use resolved::{differences, hash, input_files, read_inputs, to_toml};
 pub use schema::config_schema;
 
 use crate::domain::params::DomainParams;
-use crate::geometry::params::{PatternParams, TopologyParams};
+use crate::geometry::params::PatternParams;
 use crate::search::params::{ObjectivesParams, SearchParams};
+use crate::skeleton::params::TopologyParams;
 use crate::structure::params::StructureParams;
 use crate::surface::params::SurfaceParams;
 use schemars::JsonSchema;

@@ -5,10 +5,11 @@ use super::path::KeyPath;
 use super::schema::suggestion;
 use super::{Config, VERSION, seeds};
 use crate::domain::params::{Corners, LoopParams};
-use crate::geometry::params::{Density, InitialMesh, RelaxKind};
+use crate::geometry::params::{Density, RelaxKind};
 use crate::io::{Inputs, ReadError};
 use crate::objectives::{self, METRICS};
 use crate::search::params::RuleParams;
+use crate::skeleton::params::InitialMesh;
 use crate::structure::params::{
     HeightParams, Quantity, RequirementParams, SectionParams, StructureParams, SupportNodes, SupportParams,
 };

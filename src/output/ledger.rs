@@ -1,17 +1,13 @@
 //! Which files of a results folder the program has written. Only these are ever replaced or removed; of these, one that
 //! was changed since is kept too.
 
-use super::folder::FolderError;
+use super::manifest::Files;
+use super::refusal::FolderError;
 use crate::io::hex;
 use sha2::{Digest, Sha256};
-use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
-
-/// SHA-256 of what was written, by name relative to the folder, with `/`; none of a file that goes on changing (journal,
-/// checkpoints, report) or was just being written.
-pub type Files = BTreeMap<String, Option<String>>;
 
 /// The files of a folder, before this process and by it.
 #[derive(Debug, Default)]

@@ -1,8 +1,8 @@
 //! `topology.initial` of the config: skeleton, grid, file or written out, fitted to the domain.
 
+use super::params::{InitialMesh as Given, TopologyParams};
 use super::{SkeletonError, initial_mesh};
 use crate::domain::Domain;
-use crate::geometry::params::{InitialMesh as Given, TopologyParams};
 use crate::io::text::decode;
 use crate::io::{Input, Inputs, LengthUnit, MEET, ReadError, compas, obj};
 use crate::json;
