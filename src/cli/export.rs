@@ -156,7 +156,7 @@ fn write(args: &Args, files: DesignFiles) -> Result<ExitCode, CliError> {
             std::fs::create_dir_all(folder).map_err(CliError::write(folder))?;
             for (name, bytes) in &files {
                 let path = folder.join(name);
-                atomic::write(&path, bytes).map_err(CliError::write(&path))?;
+                atomic::write_named(&path, bytes).map_err(CliError::write(&path))?;
                 outln!("{}", path.display());
             }
         }

@@ -27,6 +27,18 @@ pub fn folder_exists(file: &Path) -> Result<(), String> {
     }
 }
 
+/// Refuses a file that is there and of another kind than what will be written: a config, say, named by mistake.
+pub fn refuse_other_kind(flag: &str, file: &Path, extension: &str) -> Result<(), CliError> {
+    let is_of_kind = file.extension().is_some_and(|found| found.eq_ignore_ascii_case(extension));
+    match file.is_file() && !is_of_kind {
+        true => Err(CliError::Input(format!(
+            "{flag} {}: is there and does not end in .{extension}; allowed: a new file, or one that ends in .{extension}",
+            file.display()
+        ))),
+        false => Ok(()),
+    }
+}
+
 /// The results folder of a run, and where its inputs are.
 #[derive(clap::Args)]
 pub struct FolderArgs {

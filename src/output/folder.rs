@@ -83,9 +83,14 @@ impl Folder {
         Ok(())
     }
 
-    /// Lists names that are about to be written ([`Ledger::announce`]).
-    pub fn announce(&mut self, names: impl IntoIterator<Item = String>) {
-        self.ledger.announce(names);
+    /// Lists names that are about to be written ([`Ledger::announce`], [`Ledger::replace`]).
+    ///
+    /// # Errors
+    /// [`FolderError::Io`].
+    pub fn announce(&mut self, names: impl IntoIterator<Item = String>) -> Result<(), FolderError> {
+        let names: Vec<String> = names.into_iter().collect();
+        self.ledger.announce(names.iter().cloned());
+        self.ledger.replace(names)
     }
 
     /// Removes what earlier sittings wrote and this one did not: designs that are no longer of the front. Pictures of

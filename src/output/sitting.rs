@@ -110,7 +110,7 @@ impl Sitting {
             Some(earlier) if !worked => self.manifest.threads = earlier.threads,
             _ => {}
         }
-        folder.announce(names);
+        folder.announce(names)?;
         self.save(folder)
     }
 

@@ -35,6 +35,17 @@ fn places_that_cannot_be_written_are_refused_before_anything_is_evaluated() {
     for arguments in [&evaluate[..], &export[..], &["man", "--out", "afile"]] {
         refused(folder, arguments, "--out afile: a file; allowed: a folder");
     }
+    // Named by mistake: a config, and a table of somebody else's.
+    fs::write(folder.join("mine.toml"), "mine").unwrap();
+    let neighbours = ["neighbours", &ci, "--string", "", "--out", "mine.toml"];
+    refused(folder, &neighbours, "is there and does not end in .csv");
+    refused(folder, &["explain", "done", "0", "--svg", "mine.toml"], "is there and does not end in .svg");
+    fs::create_dir(folder.join("others")).unwrap();
+    fs::write(folder.join("others/evaluation.csv"), "mine").unwrap();
+    let evaluate = ["evaluate", &ci, "--string", "", "--out", "others"];
+    refused(folder, &evaluate, "its evaluation.csv was not written by `evaluate`");
+    assert_eq!(fs::read(folder.join("mine.toml")).unwrap(), b"mine");
+    assert_eq!(fs::read(folder.join("others/evaluation.csv")).unwrap(), b"mine");
     refused(folder, &["init", "a/b"], "there is no folder a");
     refused(folder, &["init", ""], "found the name \"\"");
     refused(folder, &["init", "--", "-x"], "found the name \"-x\"");
