@@ -229,6 +229,10 @@ impl Rules<'_> {
         else {
             return;
         };
+        if !thickness_m.is_finite() {
+            let message = format!("found {thickness_m}; allowed: a finite number of metres");
+            return self.refuse("structure.section.thickness_m", message);
+        }
         let allowed = format!("allowed: more than twice the wall, {}", 2.0 * thickness_m);
         if least <= 2.0 * thickness_m {
             self.refuse(key, format!("found {least}; {allowed}"));

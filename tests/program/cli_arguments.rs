@@ -163,3 +163,15 @@ fn requirements_have_either_direction_unless_the_height_is_sized() {
         "a lower limit beside a height",
     );
 }
+
+#[test]
+#[cfg(target_os = "linux")]
+fn help_and_version_are_not_lost_on_a_full_disk() {
+    for argument in ["--help", "--version", "help", "run --help"] {
+        let script = format!("'{}' {argument} > /dev/full", env!("CARGO_BIN_EXE_quadrille"));
+        let output = Command::new("sh").args(["-c", &script]).output().unwrap();
+        let told = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(1), "{argument}: {told}");
+        assert!(told.contains("No space left"), "{argument}: {told}");
+    }
+}
