@@ -13,6 +13,7 @@
 pub mod config;
 pub mod domain;
 pub mod evolve;
+pub mod files;
 pub mod geometry;
 pub mod grammar;
 pub mod io;

@@ -1,6 +1,7 @@
 //! Memory per evaluated design. A test file of its own, because it measures its whole process.
 
 #[path = "search/support.rs"]
+#[allow(dead_code, reason = "shared with tests/search")]
 mod support;
 
 use quadrille::search::params::TokenBounds;

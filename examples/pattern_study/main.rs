@@ -12,8 +12,8 @@
 
 use quadrille::config;
 use quadrille::domain::Domain;
+use quadrille::domain::params::Pinched;
 use quadrille::geometry::metrics::{Fabrication, measure};
-use quadrille::geometry::params::Pinched;
 use quadrille::geometry::{Pattern, Shaped, check, develop, limits, shape, topological_rejection};
 use quadrille::grammar::Tokens;
 use quadrille::grammar::random::{self, Shares};

@@ -6,11 +6,11 @@ use super::deviations::Deviations;
 use super::folder_args::refuse_file;
 use super::topology::parse_string;
 use super::{CliError, Console};
+use quadrille::files::atomic;
+use quadrille::files::names::{CHECKPOINT, DESIGNS, EVALUATION, JOURNAL, JOURNAL_BEFORE, MANIFEST};
 use quadrille::grammar::Tokens;
 use quadrille::io::table;
 use quadrille::io::text::decode;
-use quadrille::output::atomic;
-use quadrille::output::folder::{CHECKPOINT, DESIGNS, EVALUATION, JOURNAL, JOURNAL_BEFORE, MANIFEST};
 use quadrille::output::results::DesignFiles;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -114,8 +114,15 @@ fn read_strings(file: &Path) -> Result<Vec<(String, Tokens)>, CliError> {
     }
 }
 
-/// A run's folder holds what the run found, and nothing else.
+/// A run's folder holds what the run found, and nothing else; a table of that name that somebody else wrote is theirs.
 fn refuse_results(folder: &Path) -> Result<(), CliError> {
+    let table = folder.join(EVALUATION);
+    if std::fs::read(&table).is_ok_and(|bytes| !bytes.starts_with(b"name,string,")) {
+        return Err(CliError::Input(format!(
+            "--out {}: its {EVALUATION} was not written by `evaluate`; give another folder",
+            folder.display()
+        )));
+    }
     match [MANIFEST, CHECKPOINT, JOURNAL, JOURNAL_BEFORE].iter().find(|name| folder.join(name).exists()) {
         None => Ok(()),
         Some(name) => Err(CliError::Input(format!(
@@ -142,7 +149,7 @@ impl Designs {
 }
 
 fn save(path: PathBuf, bytes: &[u8]) -> Result<(), CliError> {
-    atomic::write(&path, bytes).map_err(CliError::write(&path))
+    atomic::write_named(&path, bytes).map_err(CliError::write(&path))
 }
 
 /// Writes the tables.

@@ -1,12 +1,13 @@
 //! `quadrille explain`: what governs a design, where and by how much.
 
-use super::folder_args::{FolderArgs, find};
+use super::folder_args::{FolderArgs, find, refuse_other_kind};
 use super::{CliError, Console};
+use quadrille::files::atomic;
+use quadrille::files::names::EXPLAINED;
 use quadrille::objectives::METRICS;
-use quadrille::output::atomic;
 use quadrille::output::designs::id;
 use quadrille::output::explanation::explanation;
-use quadrille::output::folder::{self, EXPLAINED};
+use quadrille::output::folder;
 use quadrille::output::load::Loaded;
 use quadrille::output::number::significant;
 use quadrille::output::results::Developed;
@@ -36,6 +37,9 @@ pub struct Args {
 
 /// Tells.
 pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
+    if let Some(path) = &args.svg {
+        refuse_other_kind("--svg", path, "svg")?;
+    }
     let (loaded, study) = args.run.look(console)?;
     let row = find(&loaded, &args.design)?;
     outln!("design {}: \"{}\"", id(row.code), row.tokens);
@@ -70,7 +74,7 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
         let name = format!("{EXPLAINED}/{}.svg", id(row.code));
         let path = args.svg.clone().unwrap_or_else(|| args.run.folder.join(&name));
         let made = path.parent().map_or(Ok(()), fs::create_dir_all);
-        made.and_then(|()| atomic::write(&path, &picture)).map_err(CliError::write(&path))?;
+        made.and_then(|()| atomic::write_named(&path, &picture)).map_err(CliError::write(&path))?;
         if args.svg.is_none() {
             folder::list(&args.run.folder, &name, &picture)
                 .map_err(|error| CliError::Failed(error.to_string()))?;

@@ -4,6 +4,7 @@ use super::folder_args::{FolderArgs, find, refuse_file};
 use super::stdout::print_result;
 use super::{CliError, Console};
 use clap::ValueEnum;
+use quadrille::files::atomic;
 use quadrille::geometry::Pattern;
 use quadrille::geometry::conway::{PolyMesh, ambo, dual, join};
 use quadrille::output::compas::compas;
@@ -11,8 +12,8 @@ use quadrille::output::designs::id;
 use quadrille::output::obj::obj;
 use quadrille::output::polygons::Polygons;
 use quadrille::output::results::{DesignFiles, Developed};
+use quadrille::output::svg;
 use quadrille::output::vtu::{Grid, vtu};
-use quadrille::output::{atomic, svg};
 use quadrille::structure::gridshell::Proof;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -155,7 +156,7 @@ fn write(args: &Args, files: DesignFiles) -> Result<ExitCode, CliError> {
             std::fs::create_dir_all(folder).map_err(CliError::write(folder))?;
             for (name, bytes) in &files {
                 let path = folder.join(name);
-                atomic::write(&path, bytes).map_err(CliError::write(&path))?;
+                atomic::write_named(&path, bytes).map_err(CliError::write(&path))?;
                 outln!("{}", path.display());
             }
         }

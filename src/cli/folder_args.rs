@@ -1,12 +1,12 @@
 //! A folder as an argument: one to write into, or a results folder, read back.
 
 use super::{CliError, Console};
+use quadrille::files::lock::Lock;
 use quadrille::grammar::Tokens;
 use quadrille::mesh::Code;
 use quadrille::output::designs::{digits, id};
 use quadrille::output::inputs;
 use quadrille::output::load::{self, Loaded};
-use quadrille::output::lock::Lock;
 use quadrille::search::EvaluatedRow;
 use quadrille::study::Study;
 use std::path::{Path, PathBuf};
@@ -24,6 +24,18 @@ pub fn folder_exists(file: &Path) -> Result<(), String> {
     match file.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()) {
         Some(folder) => Err(format!("there is no folder {}; make it first", folder.display())),
         None => Ok(()),
+    }
+}
+
+/// Refuses a file that is there and of another kind than what will be written: a config, say, named by mistake.
+pub fn refuse_other_kind(flag: &str, file: &Path, extension: &str) -> Result<(), CliError> {
+    let is_of_kind = file.extension().is_some_and(|found| found.eq_ignore_ascii_case(extension));
+    match file.is_file() && !is_of_kind {
+        true => Err(CliError::Input(format!(
+            "{flag} {}: is there and does not end in .{extension}; allowed: a new file, or one that ends in .{extension}",
+            file.display()
+        ))),
+        false => Ok(()),
     }
 }
 

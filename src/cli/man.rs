@@ -4,7 +4,7 @@ use super::folder_args::refuse_file;
 use super::stdout::print_result;
 use super::{CliError, help};
 use clap::CommandFactory;
-use quadrille::output::atomic;
+use quadrille::files::atomic;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -34,7 +34,7 @@ pub fn run<C: CommandFactory>(args: Args) -> Result<ExitCode, CliError> {
     for command in [command].into_iter().chain(subcommands) {
         let name = command.get_display_name().unwrap_or_else(|| command.get_name()).to_owned();
         let path = folder.join(format!("{name}.1"));
-        atomic::write(&path, &page(command)?).map_err(CliError::write(&path))?;
+        atomic::write_named(&path, &page(command)?).map_err(CliError::write(&path))?;
         outln!("{}", path.display());
     }
     Ok(ExitCode::SUCCESS)

@@ -2,11 +2,11 @@
 
 use super::compare::Comparison;
 use super::config_args::ConfigArgs;
-use super::folder_args::folder_exists;
+use super::folder_args::{folder_exists, refuse_other_kind};
 use super::topology::parse_string;
 use super::{CliError, Console};
+use quadrille::files::atomic;
 use quadrille::objectives::Metric;
-use quadrille::output::atomic;
 use quadrille::output::number::significant;
 use quadrille::search::operators::Reach;
 use std::collections::BTreeSet;
@@ -78,7 +78,7 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
         outln!("\n{}", verdict(won, study.objectives.len()));
     }
     if let Some(path) = &args.out {
-        atomic::write(path, &comparison.table().to_csv()).map_err(CliError::write(path))?;
+        atomic::write_named(path, &comparison.table().to_csv()).map_err(CliError::write(path))?;
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -89,7 +89,7 @@ fn writable(path: &Path) -> Result<(), CliError> {
     folder_exists(path).map_err(|reason| CliError::Input(format!("{place}: {reason}")))?;
     match path.is_dir() {
         true => Err(CliError::Input(format!("{place}: a folder; allowed: a file"))),
-        false => Ok(()),
+        false => refuse_other_kind("--out", path, "csv"),
     }
 }
 

@@ -2,9 +2,10 @@
 
 use super::folder_args::{FolderArgs, unfinished};
 use super::{CliError, Console};
-use quadrille::output::folder::REPORT;
+use quadrille::files::atomic;
+use quadrille::files::names::REPORT;
 use quadrille::output::load::look;
-use quadrille::output::{atomic, inputs, report};
+use quadrille::output::{inputs, report};
 use std::process::ExitCode;
 
 /// (Re)make report.html from a results folder.

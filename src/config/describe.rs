@@ -2,11 +2,13 @@
 
 use super::Config;
 use crate::domain::params::{CornerRule, Corners, LengthUnit, LoopParams};
-use crate::geometry::params::{Density, InitialMesh, PatternParams};
+use crate::geometry::params::{Density, PatternParams};
 use crate::search::params::{SearchParams, Seeds};
+use crate::skeleton::params::InitialMesh;
+use crate::structure::model::Direction;
 use crate::structure::params::{
-    Direction, HeightParams, LoadParams, Quantity, RequirementParams, SectionParams, StructureParams,
-    SupportNodes, SupportParams, SupportPlace,
+    HeightParams, LoadParams, Quantity, RequirementParams, SectionParams, StructureParams, SupportNodes,
+    SupportParams, SupportPlace,
 };
 use crate::surface::params::SurfaceParams;
 

@@ -26,8 +26,9 @@ pub use retired::recorded;
 pub use schema::config_schema;
 
 use crate::domain::params::DomainParams;
-use crate::geometry::params::{PatternParams, TopologyParams};
+use crate::geometry::params::PatternParams;
 use crate::search::params::{ObjectivesParams, SearchParams};
+use crate::skeleton::params::TopologyParams;
 use crate::structure::params::StructureParams;
 use crate::surface::params::SurfaceParams;
 use schemars::JsonSchema;

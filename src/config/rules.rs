@@ -5,9 +5,10 @@ use super::path::KeyPath;
 use super::schema::suggestion;
 use super::{Config, VERSION, seeds};
 use crate::domain::params::{Corners, LoopParams};
-use crate::geometry::params::{Density, InitialMesh, RelaxKind};
+use crate::geometry::params::{Density, RelaxKind};
 use crate::io::{Inputs, ReadError};
 use crate::objectives::{self, METRICS};
+use crate::skeleton::params::InitialMesh;
 use crate::structure::params::{
     HeightParams, Quantity, RequirementParams, SectionParams, StructureParams, SupportNodes, SupportParams,
 };
@@ -227,6 +228,10 @@ impl Rules<'_> {
         else {
             return;
         };
+        if !thickness_m.is_finite() {
+            let message = format!("found {thickness_m}; allowed: a finite number of metres");
+            return self.refuse("structure.section.thickness_m", message);
+        }
         let allowed = format!("allowed: more than twice the wall, {}", 2.0 * thickness_m);
         if least <= 2.0 * thickness_m {
             self.refuse(key, format!("found {least}; {allowed}"));

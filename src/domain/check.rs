@@ -68,6 +68,21 @@ fn diagonal(points: &[[f64; 3]]) -> f64 {
     (high[0] - low[0]).hypot(high[1] - low[1])
 }
 
+/// Smallest and largest extents of a loop, m.
+const EXTENTS: std::ops::RangeInclusive<f64> = 1e-6..=1e9;
+
+/// Refuses loops of measures that no structure has.
+pub(super) fn extents(curves: &[Curve]) -> Result<(), DomainError> {
+    for (loop_number, curve) in curves.iter().enumerate() {
+        let [low, high] = curve.bounds();
+        let extents = [high[0] - low[0], high[1] - low[1]];
+        if extents.iter().any(|extent| !EXTENTS.contains(extent)) {
+            return Err(DomainError::Extents { loop_number, extents });
+        }
+    }
+    Ok(())
+}
+
 /// Refuses loops that meet, holes outside the outer loop, and holes in holes.
 pub(super) fn curves(curves: &[Curve]) -> Result<(), DomainError> {
     let [low, high] = curves[0].bounds();

@@ -192,6 +192,17 @@ pub enum DomainError {
         /// How far apart its ends are, m.
         gap: f64,
     },
+    /// A loop that no structure has: its measures leave the range of numbers, or drown in rounding.
+    #[error(
+        "domain.loop[{loop_number}]: it extends over {} m, allowed are 1e-6 to 1e9 m; lengths are metres",
+        extents.map(|extent| format!("{extent:e}")).join(" × ")
+    )]
+    Extents {
+        /// The loop.
+        loop_number: usize,
+        /// In x and y, m.
+        extents: [f64; 2],
+    },
     /// The surface does not reach everywhere.
     #[error("surface: it does not cover the domain: no finite height at ({x:.6}, {y:.6}); {extent}")]
     NotCovered {
@@ -246,7 +257,8 @@ impl DomainError {
             | Self::OpenPolyline { loop_number, .. } => {
                 format!("domain.loop[{loop_number}].file")
             }
-            Self::LoopsMeet { second: loop_number, .. }
+            Self::Extents { loop_number, .. }
+            | Self::LoopsMeet { second: loop_number, .. }
             | Self::HoleOutside { loop_number }
             | Self::HoleInHole { inner: loop_number, .. } => format!("domain.loop[{loop_number}]"),
         }

@@ -100,6 +100,7 @@ impl Domain {
             marked.push(corners);
             closed_gaps.extend((gap > 0.0).then_some((i, gap)));
         }
+        check::extents(&curves)?;
         check::curves(&curves)?;
         check::covered(&curves, surface.as_ref())?;
         let plan_area = curves[0].area() - curves[1..].iter().map(Curve::area).sum::<f64>();

@@ -146,3 +146,13 @@ impl Default for Corners {
 fn default_corner_angle() -> f64 {
     30.0
 }
+
+/// What to do with pinched vertices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Pinched {
+    /// Infeasible.
+    Reject,
+    /// Allowed.
+    Allow,
+}

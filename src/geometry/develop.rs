@@ -10,13 +10,14 @@ use super::force_density;
 use super::images::{self, Image};
 use super::limits::Limits;
 use super::optimise::{Ground, Optimiser, Sheet, Task};
-use super::params::{Density, PatternParams, Pinched, RelaxKind};
+use super::params::{Density, PatternParams, RelaxKind};
 use super::pattern::Pattern;
 use super::place::{self, Folds, Placed};
 use super::rejection::Rejection;
 use super::relax;
 use super::topology;
 use crate::domain::Domain;
+use crate::domain::params::Pinched;
 use crate::mesh::CanonicalMesh;
 use crate::surface::Surface;
 

@@ -34,6 +34,6 @@ pub mod vector;
 
 pub use develop::{Shaped, develop, shape, topological_rejection};
 pub use images::Image;
-pub use params::{PatternParams, TopologyParams};
+pub use params::PatternParams;
 pub use pattern::{Panel, Pattern};
 pub use rejection::Rejection;

@@ -1,11 +1,11 @@
 //! Whether the tables of a results folder say the same: `pareto.csv`, `history.csv`, and what their columns promise.
 
 use super::designs::{Columns, Naming, id};
-use super::folder::{HISTORY, PARETO};
 use super::front::{self, Standing};
 use super::load::{LoadError, Loaded, Record, Sheet, row};
 use super::table::Cell;
 use crate::evolve::{NonDominated, visible};
+use crate::files::names::{HISTORY, PARETO};
 use crate::mesh::canonical::Code;
 use crate::search::EvaluatedRow;
 use std::collections::{BTreeMap, BTreeSet};

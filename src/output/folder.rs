@@ -1,106 +1,17 @@
 //! The results folder: where each file is, who may write, and whether a run is finished.
 
-use super::atomic;
-use super::holds::{check, is_journal, listed};
-use super::ledger::{Files, Ledger};
-use super::lock::{Lock, Try};
-use super::manifest::{Manifest, ManifestError, Status};
+use super::holds::{check, listed};
+use super::ledger::Ledger;
+use super::manifest::{Files, Manifest, Status};
+pub use super::refusal::{FolderError, Opening};
+use crate::files::atomic;
+use crate::files::lock::{Lock, Try};
+use crate::files::names::{CHANGING, EXPLAINED, FOLDERS, MANIFEST, TABLES};
 use crate::io::{hex, sha256};
 use sha2::{Digest, Sha256};
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-
-/// Files of the front as a table.
-pub const PARETO: &str = "pareto.csv";
-/// Every evaluated design.
-pub const HISTORY: &str = "history.csv";
-/// One row per generation.
-pub const GENERATIONS: &str = "generations.csv";
-/// One row per generation and operator.
-pub const OPERATORS: &str = "operators.csv";
-/// What was run, with what, where and when.
-pub const MANIFEST: &str = "manifest.json";
-/// The designs that `evaluate` compares.
-pub const EVALUATION: &str = "evaluation.csv";
-/// State of an unfinished run.
-pub const CHECKPOINT: &str = "checkpoint.json";
-/// The one before.
-pub const CHECKPOINT_PREVIOUS: &str = "checkpoint.previous.json";
-/// The page to look at.
-pub const REPORT: &str = "report.html";
-/// Folder of the front's designs.
-pub const DESIGNS: &str = "designs";
-/// Folder for Design Explorer.
-pub const DESIGN_EXPLORER: &str = "design_explorer";
-/// Folder of the pictures that `explain` draws.
-pub const EXPLAINED: &str = "explained";
-/// Every evaluation of a run, as they come.
-pub const JOURNAL: &str = "evaluations.journal";
-/// Its name in runs of quadrille 0.1, which go on with it.
-pub const JOURNAL_BEFORE: &str = "evaluations.jsonl";
-
-/// The tables of a run.
-pub const TABLES: [&str; 4] = [PARETO, HISTORY, GENERATIONS, OPERATORS];
-/// Files that change while a run goes on, or whenever somebody asks for it: the program's own, whatever is in them.
-pub(super) const CHANGING: [&str; 5] = [MANIFEST, CHECKPOINT, CHECKPOINT_PREVIOUS, JOURNAL, REPORT];
-/// Folders that hold nothing of the run's own but what its manifest lists.
-pub(super) const FOLDERS: [&str; 3] = [DESIGNS, DESIGN_EXPLORER, EXPLAINED];
-
-/// Why a results folder cannot be used.
-#[derive(Debug, thiserror::Error)]
-pub enum FolderError {
-    /// Another run writes into it.
-    #[error("{} is in use by another run", .0.display())]
-    InUse(PathBuf),
-    /// It holds a finished run.
-    #[error("{} holds a finished run; give another --out, or --force to overwrite it", .0.display())]
-    Finished(PathBuf),
-    /// It holds an interrupted run.
-    #[error("{} holds an interrupted run; --resume goes on with it, --force starts anew", .0.display())]
-    Interrupted(PathBuf),
-    /// It holds something else under a name that a run writes.
-    #[error("{} holds {name}, which no run there wrote; give another --out, or --force to write there all the same: what no run wrote is kept, as {name}.bak where its name is needed", path.display())]
-    Occupied {
-        /// The folder.
-        path: PathBuf,
-        /// The file or folder in it.
-        name: String,
-    },
-    /// A file is where a folder has to be.
-    #[error("{} is no folder, and a run needs one of that name; give another --out", .0.display())]
-    NoFolder(PathBuf),
-    /// A later program wrote it: what is whose cannot be told.
-    #[error("{}: {reason}; or give another --out", path.display())]
-    Newer {
-        /// The manifest.
-        path: PathBuf,
-        /// Whose it is.
-        reason: ManifestError,
-    },
-    /// There is nothing to go on with.
-    #[error("{} holds no checkpoint to resume", .0.display())]
-    NoCheckpoint(PathBuf),
-    /// The system refuses.
-    #[error("{}: {source}", path.display())]
-    Io {
-        /// The file or folder.
-        path: PathBuf,
-        /// What the system says.
-        source: io::Error,
-    },
-}
-
-/// What a run does with what is there.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Opening {
-    /// Only a folder in which nothing would be replaced.
-    New,
-    /// What an earlier run wrote is removed.
-    Overwrite,
-    /// Go on with an interrupted run.
-    Resume,
-}
 
 /// A results folder that this process alone may write to, as long as the value lives.
 ///
@@ -172,9 +83,14 @@ impl Folder {
         Ok(())
     }
 
-    /// Lists names that are about to be written ([`Ledger::announce`]).
-    pub fn announce(&mut self, names: impl IntoIterator<Item = String>) {
-        self.ledger.announce(names);
+    /// Lists names that are about to be written ([`Ledger::announce`], [`Ledger::replace`]).
+    ///
+    /// # Errors
+    /// [`FolderError::Io`].
+    pub fn announce(&mut self, names: impl IntoIterator<Item = String>) -> Result<(), FolderError> {
+        let names: Vec<String> = names.into_iter().collect();
+        self.ledger.announce(names.iter().cloned());
+        self.ledger.replace(names)
     }
 
     /// Removes what earlier sittings wrote and this one did not: designs that are no longer of the front. Pictures of
@@ -310,21 +226,10 @@ pub fn list(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), FolderError> 
     atomic::write(&path, &manifest.to_json()).map_err(|source| FolderError::Io { path, source })
 }
 
-/// The journal of a folder: a run that was begun under its old name keeps it.
-pub fn journal(folder: &Path) -> PathBuf {
-    let [path, before] = [JOURNAL, JOURNAL_BEFORE].map(|name| folder.join(name));
-    // Tables of evaluations by other programs have that name too.
-    if !path.exists() && is_journal(&before) { before } else { path }
-}
-
-/// The name of a table's copy for a spreadsheet with decimal commas: `pareto.csv` → `pareto.excel-eu.csv`.
-pub fn excel_name(name: &str) -> String {
-    format!("{}.excel-eu.csv", name.trim_end_matches(".csv"))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::files::names::{CHECKPOINT, HISTORY, PARETO};
     use std::collections::BTreeMap;
 
     const STATE: &[u8] = b"{\"version\":1,\"checksum\":\"0\"}";

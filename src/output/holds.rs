@@ -1,13 +1,12 @@
 //! What a folder holds before a run begins there, and whether the run may.
 
-use super::folder::{
-    CHANGING, CHECKPOINT, CHECKPOINT_PREVIOUS, DESIGN_EXPLORER, DESIGNS, FOLDERS, FolderError,
-    JOURNAL_BEFORE, MANIFEST, Opening, TABLES, excel_name, journal,
+use super::manifest::{Files, Manifest, ManifestError, Status};
+use super::refusal::{FolderError, Opening};
+use crate::files::names::{
+    CHANGING, CHECKPOINT, CHECKPOINT_PREVIOUS, DESIGN_EXPLORER, DESIGNS, FOLDERS, JOURNAL_BEFORE, MANIFEST,
+    TABLES, begins_with, excel_name, is_journal, journal,
 };
-use super::ledger::Files;
-use super::manifest::{Manifest, ManifestError, Status};
-use std::fs::{self, File};
-use std::io::Read;
+use std::fs;
 use std::path::Path;
 
 /// What a folder is.
@@ -81,18 +80,6 @@ pub(super) fn listed(folder: &Path) -> Files {
 fn has_state(folder: &Path) -> bool {
     let is_checkpoint = |name| begins_with(&folder.join(name), "\"checksum\":");
     is_journal(&journal(folder)) || [CHECKPOINT, CHECKPOINT_PREVIOUS].into_iter().any(is_checkpoint)
-}
-
-/// Whether a file is the journal of a run.
-pub(super) fn is_journal(path: &Path) -> bool {
-    begins_with(path, "{\"journal\":")
-}
-
-/// Whether a file has `mark` near its beginning.
-fn begins_with(path: &Path, mark: &str) -> bool {
-    let mut start = Vec::new();
-    let read = File::open(path).and_then(|file| file.take(128).read_to_end(&mut start));
-    read.is_ok() && String::from_utf8_lossy(&start).contains(mark)
 }
 
 /// Refuses the folder of a later program, also to be overwritten.

@@ -1,17 +1,13 @@
 //! Which files of a results folder the program has written. Only these are ever replaced or removed; of these, one that
 //! was changed since is kept too.
 
-use super::folder::FolderError;
+use super::manifest::Files;
+use super::refusal::FolderError;
 use crate::io::hex;
 use sha2::{Digest, Sha256};
-use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
-
-/// SHA-256 of what was written, by name relative to the folder, with `/`; none of a file that goes on changing (journal,
-/// checkpoints, report) or was just being written.
-pub type Files = BTreeMap<String, Option<String>>;
 
 /// The files of a folder, before this process and by it.
 #[derive(Debug, Default)]
@@ -52,6 +48,22 @@ impl Ledger {
                 self.before.entry(name).or_insert(None);
             }
         }
+    }
+
+    /// Names of files as they were written that are about to be replaced: whether a kill leaves the old or the new one, it is the
+    /// program's. One that was changed since keeps its sum, by which that is known.
+    ///
+    /// # Errors
+    /// [`FolderError::Io`].
+    pub fn replace(&mut self, names: impl IntoIterator<Item = String>) -> Result<(), FolderError> {
+        for name in names {
+            let Some(Some(sum)) = self.before.get(&name) else { continue };
+            let path = self.folder.join(&name);
+            if !path.is_dir() && self.is_as_written(&path, sum)? {
+                self.before.insert(name, None);
+            }
+        }
+        Ok(())
     }
 
     /// Makes way for a file: one of that name that is not the program's, or not as it was written, is renamed. `bytes` is
@@ -169,6 +181,23 @@ fn free_name(path: &Path) -> PathBuf {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_kill_between_a_file_and_its_listing_does_not_make_it_the_users() {
+        let folder = tempfile::tempdir().unwrap();
+        let put = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+        let names = ["ours", "edited"].map(str::to_owned);
+        let sum = |name: &String| (name.clone(), Some(crate::io::sha256(name.as_bytes())));
+        put("ours", "ours");
+        put("edited", "by me");
+        let mut ledger = Ledger::new(folder.path(), names.each_ref().map(sum).into());
+        ledger.replace(names.clone()).unwrap();
+        // Killed here, with the new file there: the next process reads this listing.
+        put("ours", "new");
+        let mut next = Ledger::new(folder.path(), ledger.files());
+        names.iter().for_each(|name| next.make_way(name, Some(b"newer")).unwrap());
+        assert!(folder.path().join("edited.bak").exists() && !folder.path().join("ours.bak").exists());
+    }
 
     #[test]
     fn nothing_of_others_is_replaced_or_removed() {

@@ -1,10 +1,10 @@
 //! A results folder read back: what `report`, `export`, `verify` and `explain` start from.
 
 use super::designs::{Columns, FIRST, LAST, Naming, digits, id};
-use super::folder::{self, CHECKPOINT, EVALUATION, GENERATIONS, HISTORY, MANIFEST, PARETO};
 use super::manifest::{Counts, Manifest, Status};
 use crate::config::{self, Config};
 use crate::evolve::Violation;
+use crate::files::names::{self, CHECKPOINT, EVALUATION, GENERATIONS, HISTORY, MANIFEST, PARETO};
 use crate::io::table;
 use crate::mesh::Symmetries;
 use crate::mesh::canonical::Code;
@@ -84,7 +84,7 @@ pub fn look(folder: &Path) -> Result<Loaded, LoadError> {
         return tables(folder, manifest, config);
     }
     let read = Snapshot::read(folder)
-        .map_err(|error| LoadError::Format { path: folder::journal(folder), message: error.to_string() })?;
+        .map_err(|error| LoadError::Format { path: names::journal(folder), message: error.to_string() })?;
     let Some(Snapshot { evaluated, generations, front, breeding }) = read else {
         return Err(LoadError::Nothing { folder: folder.to_path_buf() });
     };
@@ -148,7 +148,7 @@ fn cure(folder: &Path) -> &'static str {
     if folder.join(EVALUATION).exists() {
         "`evaluate` wrote it, and its designs are in designs/ already; to have them in a run's folder, give their \
          strings as search.seeds"
-    } else if folder.join(CHECKPOINT).exists() || folder::journal(folder).exists() {
+    } else if folder.join(CHECKPOINT).exists() || names::journal(folder).exists() {
         "the run there is unfinished: end it with `quadrille run CONFIG --resume`"
     } else {
         "give the folder that `run` wrote"

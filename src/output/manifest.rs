@@ -1,6 +1,6 @@
 //! `manifest.json`: what was run, with what, where and when. The one file that holds times.
 
-use super::ledger::Files;
+use crate::files::names::MANIFEST;
 use crate::search::{Breeding, GenerationRow};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -11,6 +11,10 @@ use std::time::{SystemTime, UNIX_EPOCH};
 pub const VERSION: u32 = 1;
 /// The program that writes it.
 pub const PROGRAM: &str = env!("CARGO_PKG_NAME");
+
+/// SHA-256 of what was written, by name relative to the folder, with `/`; none of a file that goes on changing (journal,
+/// checkpoints, report) or was just being written.
+pub type Files = BTreeMap<String, Option<String>>;
 
 /// Why a manifest cannot be read.
 #[derive(Debug, thiserror::Error)]
@@ -154,7 +158,7 @@ impl Host {
 impl Manifest {
     /// The manifest of a results folder, if it has one that can be read.
     pub fn read(folder: &Path) -> Option<Self> {
-        Self::parse(&std::fs::read(folder.join(super::folder::MANIFEST)).ok()?).ok()
+        Self::parse(&std::fs::read(folder.join(MANIFEST)).ok()?).ok()
     }
 
     /// The manifest in a file.

@@ -1,7 +1,6 @@
 //! Results folder and interchange formats: one exporter a file, each returns bytes.
 
 pub mod analysed;
-pub mod atomic;
 pub mod coarse;
 pub mod compas;
 pub mod consistency;
@@ -15,12 +14,12 @@ mod holds;
 pub mod inputs;
 pub mod ledger;
 pub mod load;
-pub mod lock;
 pub mod manifest;
 pub mod number;
 pub mod obj;
 pub mod obstacles;
 pub mod polygons;
+mod refusal;
 pub mod report;
 pub mod results;
 #[cfg(test)]

@@ -4,7 +4,7 @@ use super::analysed::{Analysed, PanelShapes};
 use super::compas::compas;
 use super::designs::{Columns, id, write_history};
 use super::explorer::{Column, design_explorer};
-use super::folder::{self, Folder, FolderError, TABLES, excel_name};
+use super::folder::{Folder, FolderError};
 use super::front::{Standing, pareto};
 use super::generations::{generations, operators};
 use super::obj::obj;
@@ -13,6 +13,7 @@ use super::polygons::Polygons;
 use super::svg::{Plan, Shade, svg};
 use super::table::{Dialect, Table};
 use crate::config::Project;
+use crate::files::names::{self, TABLES, excel_name};
 use crate::mesh::{CanonicalMesh, Code};
 use crate::objectives::METRICS;
 use crate::search::{EvaluatedRow, Evaluation, Outcome, ThreadsError, thread_pool};
@@ -97,16 +98,16 @@ impl Run<'_> {
         let objectives = &self.project.config.objectives;
         let standing = Standing::of(evaluated, &self.outcome.front, objectives);
         let tables: [(&str, Table); 3] = [
-            (folder::PARETO, pareto(&self.front(), &standing, &columns)),
-            (folder::GENERATIONS, generations(rows, &columns.objectives)),
-            (folder::OPERATORS, operators(rows)),
+            (names::PARETO, pareto(&self.front(), &standing, &columns)),
+            (names::GENERATIONS, generations(rows, &columns.objectives)),
+            (names::OPERATORS, operators(rows)),
         ];
         for dialect in self.dialects() {
             for (name, table) in &tables {
                 folder.write(&named(name, dialect), &table.to_bytes(dialect))?;
             }
             let history = |out: &mut dyn Write| write_history(out, dialect, evaluated, &columns);
-            folder.write_with(&named(folder::HISTORY, dialect), history)?;
+            folder.write_with(&named(names::HISTORY, dialect), history)?;
         }
         Ok(())
     }
@@ -219,7 +220,7 @@ impl Run<'_> {
 
 fn write_design(folder: &mut Folder, files: DesignFiles, is_explored: bool) -> Result<(), ResultsError> {
     for (name, bytes) in &files {
-        folder.write(&format!("{}/{name}", folder::DESIGNS), bytes)?;
+        folder.write(&format!("{}/{name}", names::DESIGNS), bytes)?;
         if is_explored && name.ends_with(".svg") {
             folder.write(&explorer_name(name), bytes)?;
         }
@@ -231,7 +232,7 @@ fn write_design(folder: &mut Folder, files: DesignFiles, is_explored: bool) -> R
 const ENDINGS: [&str; 7] = [".obj", ".json", ".svg", ".vtu", "_members.vtu", "_nodes.csv", "_members.csv"];
 
 fn design_name(id: &str, ending: &str) -> String {
-    format!("{}/{id}{ending}", folder::DESIGNS)
+    format!("{}/{id}{ending}", names::DESIGNS)
 }
 
 fn picture_name(id: &str) -> String {
@@ -239,7 +240,7 @@ fn picture_name(id: &str) -> String {
 }
 
 fn explorer_name(name: &str) -> String {
-    format!("{}/{name}", folder::DESIGN_EXPLORER)
+    format!("{}/{name}", names::DESIGN_EXPLORER)
 }
 
 /// The name of a table in a dialect.

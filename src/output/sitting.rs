@@ -1,9 +1,10 @@
 //! One sitting of a run, from its start to its end, as its manifest tells it all the while.
 
 use super::designs::Columns;
-use super::folder::{Folder, FolderError, MANIFEST};
+use super::folder::{Folder, FolderError};
 use super::manifest::{self, Counts, Host, Manifest, Status, timestamp};
 use crate::config::{self, Project};
+use crate::files::names::MANIFEST;
 use crate::search::{Ended, GenerationRow, Outcome};
 use std::time::{Duration, Instant, SystemTime};
 
@@ -109,7 +110,7 @@ impl Sitting {
             Some(earlier) if !worked => self.manifest.threads = earlier.threads,
             _ => {}
         }
-        folder.announce(names);
+        folder.announce(names)?;
         self.save(folder)
     }
 

@@ -1,5 +1,6 @@
 //! Making a generation: parents, operators, and the rule that refuses what is known already.
 
+use super::child::Child;
 use super::known::{Known, Verdict};
 use super::local::{Footholds, step};
 use super::near::Near;
@@ -14,19 +15,6 @@ use super::stop::StopFlag;
 use crate::evolve::{Fitness, Standing, standings, tournament};
 use crate::grammar::Tokens;
 use crate::random::{Rng, chance, stream};
-
-/// A string accepted for the generation under way.
-#[derive(Clone, Debug)]
-pub(crate) struct Child {
-    pub(crate) tokens: Tokens,
-    pub(crate) identity: Identity,
-    /// Bit k: operator k of [`OPERATORS`] had a part in it.
-    pub(crate) operators: u16,
-    /// The population it belongs to.
-    pub(crate) island: usize,
-    /// The row that holds its values already, if one does; it may belong to a child before this one.
-    pub(crate) cached: Option<u32>,
-}
 
 /// A place in the generation that is still to be filled.
 struct Slot {

@@ -4,7 +4,8 @@ use std::cell::RefCell;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use super::breeding::{Brood, Child, breed};
+use super::breeding::{Brood, breed};
+use super::child::Child;
 use super::observer::{Observer, Progress};
 use super::outcome::{Ended, Outcome};
 use super::params::SearchParams;

@@ -4,6 +4,7 @@
 //! through a [`Server`] that evaluates batches.
 
 mod breeding;
+mod child;
 mod driver;
 mod known;
 mod local;

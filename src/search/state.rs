@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::breeding::Child;
+use super::child::Child;
 use super::known::Known;
 use super::normalise::{Normalisation, Volume, extremes};
 use super::params::SearchParams;

@@ -1,11 +1,12 @@
 //! `topology.initial` of the config: skeleton, grid, file or written out, fitted to the domain.
 
+use super::params::{InitialMesh as Given, TopologyParams};
 use super::{SkeletonError, initial_mesh};
 use crate::domain::Domain;
-use crate::geometry::params::{InitialMesh as Given, TopologyParams};
 use crate::io::text::decode;
 use crate::io::{Input, Inputs, LengthUnit, MEET, ReadError, compas, obj};
 use crate::json;
+use crate::mesh::load::MAX_CORNERS;
 use crate::mesh::{BaseMesh, BaseMeshError, InitialMesh, base_json};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -21,6 +22,15 @@ pub enum InitialError {
     /// The mesh is no valid coarse mesh.
     #[error("topology.initial: {0}")]
     Mesh(#[from] BaseMeshError),
+    /// More corners than meshes can have, found before anything is made of them.
+    #[error(
+        "topology.initial: the domain has {corners} corners, at most {MAX_CORNERS} are supported; of a boundary of many points that is \
+         a curve, domain.loop.corners = \"auto\" takes those only where it turns"
+    )]
+    TooManyCorners {
+        /// Corners of the domain.
+        corners: usize,
+    },
     /// A grid needs four corners and no hole.
     #[error(
         "topology.initial: a grid needs a domain with four corners and no hole, this one has {corners} corners and {holes} holes"
@@ -116,6 +126,10 @@ impl InitialError {
 /// # Errors
 /// See [`InitialError`].
 pub fn initial(params: &TopologyParams, domain: &Domain, inputs: &Inputs) -> Result<BaseMesh, InitialError> {
+    let corners = domain.corner_count();
+    if corners > MAX_CORNERS {
+        return Err(InitialError::TooManyCorners { corners });
+    }
     let mut base = match &params.initial {
         Given::Word(_) => initial_mesh(domain)?,
         Given::Grid { grid } => grid_mesh(*grid, domain)?,

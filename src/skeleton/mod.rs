@@ -16,6 +16,7 @@ mod join;
 mod layout;
 mod number;
 mod open;
+pub mod params;
 pub mod picture;
 mod refine;
 mod tidy;

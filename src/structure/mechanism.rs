@@ -13,8 +13,8 @@
 
 use super::element::{Ends, Stiffness};
 use super::factor::Factor;
+use super::model::Direction;
 use super::model::{FrameModel, NodeId};
-use super::params::Direction;
 use super::system::{DOFS, System};
 use crate::random;
 use nalgebra::{Matrix6, SymmetricEigen, Vector3, Vector6};

@@ -2,6 +2,8 @@
 
 use super::section::{Section, SectionError};
 use nalgebra::Vector3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// A node of a frame model.
@@ -48,6 +50,31 @@ pub struct Member {
     pub up: [f64; 3],
     /// Which of the model's sections.
     pub section: u32,
+}
+
+/// A degree of freedom of a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Direction {
+    /// Displacement along x.
+    Ux,
+    /// Displacement along y.
+    Uy,
+    /// Displacement along z.
+    Uz,
+    /// Rotation about x.
+    Rx,
+    /// Rotation about y.
+    Ry,
+    /// Rotation about z.
+    Rz,
+}
+
+impl Direction {
+    /// Its name in the config.
+    pub fn name(self) -> String {
+        format!("{self:?}").to_lowercase()
+    }
 }
 
 /// A support: which of ux, uy, uz, rx, ry, rz are held.

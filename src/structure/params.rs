@@ -1,5 +1,6 @@
 //! The `[structure]` table of the config. Defaults are the paper's gridshell.
 
+use super::model::Direction;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -292,31 +293,6 @@ pub enum SupportPlace {
     Corners,
     /// Every node.
     All,
-}
-
-/// A degree of freedom of a node.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Direction {
-    /// Displacement along x.
-    Ux,
-    /// Displacement along y.
-    Uy,
-    /// Displacement along z.
-    Uz,
-    /// Rotation about x.
-    Rx,
-    /// Rotation about y.
-    Ry,
-    /// Rotation about z.
-    Rz,
-}
-
-impl Direction {
-    /// Its name in the config.
-    pub fn name(self) -> String {
-        format!("{self:?}").to_lowercase()
-    }
 }
 
 /// One load case.

@@ -1,7 +1,7 @@
 //! What is allowed, but would make a run worthless, as the real sizes of domain and surface and all supports together show.
 
 use super::Study;
-use crate::structure::params::Direction;
+use crate::structure::model::Direction;
 
 /// A surface this much larger than the domain is more likely in another unit.
 const VAST: f64 = 20.0;

@@ -4,7 +4,8 @@ use super::StudyError;
 use crate::domain::{self, Domain, Side};
 use crate::mesh::isomorphism::Symmetry;
 use crate::structure::StructureParams;
-use crate::structure::params::{Direction, SupportNodes};
+use crate::structure::model::Direction;
+use crate::structure::params::SupportNodes;
 use std::collections::BTreeSet;
 
 /// A point of `nodes_near_m` or `sides_near_m` may be this share of the domain's size away from the boundary.

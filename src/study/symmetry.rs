@@ -1,10 +1,10 @@
 //! Symmetries of designs: those that the config asks for, and those that a design has.
 
 use super::{Study, StudyError};
+use crate::domain::params::Pinched;
 use crate::domain::{self, Domain, DomainError};
 use crate::geometry::images::{self, Image};
 use crate::geometry::limits::Limits;
-use crate::geometry::params::Pinched;
 use crate::geometry::{self, Rejection};
 use crate::mesh::fold::Mirror;
 use crate::mesh::{CanonicalMesh, Symmetries};

@@ -1,7 +1,8 @@
 //! Everything after the grammar is a function of the canonical code (docs/reference/geometry.md §0.5).
 
 use crate::support::great_court;
-use quadrille::geometry::params::{Pinched, RelaxParams};
+use quadrille::domain::params::Pinched;
+use quadrille::geometry::params::RelaxParams;
 use quadrille::geometry::{PatternParams, Shaped, metrics, shape, topological_rejection};
 use quadrille::grammar::random::{self, Shares};
 use quadrille::grammar::{Rules, Tokens, decode};

@@ -1,10 +1,10 @@
 //! `topology.initial`: grids, files, meshes written out, and how they are fitted to the domain; symmetries of domains.
 
 use quadrille::domain::{Domain, DomainParams, Symmetry};
-use quadrille::geometry::params::TopologyParams;
 use quadrille::io::Inputs;
 use quadrille::mesh::{BaseMesh, InitialMesh};
 use quadrille::skeleton;
+use quadrille::skeleton::params::TopologyParams;
 use quadrille::surface::{self, SurfaceParams};
 use std::path::Path;
 
@@ -76,7 +76,7 @@ fn holes_take_the_order_of_the_domain() {
         swapped.replace("[4.5, 2]", "[9, 9]").replace("[1.5, 2]", "[4.5, 2]").replace("[9, 9]", "[1.5, 2]");
     let left_first = domain(&swapped, "kind = 'plane'");
     let inline = TopologyParams {
-        initial: quadrille::geometry::params::InitialMesh::Inline {
+        initial: skeleton::params::InitialMesh::Inline {
             vertices: base.vertices.clone(),
             faces: base.faces.iter().map(|f| f.iter().map(|&v| v as usize).collect()).collect(),
             poles: Default::default(),
@@ -108,11 +108,7 @@ fn three_holes_take_the_order_of_the_domain() {
     let vertices: Vec<[f64; 3]> =
         (0..32).map(|k| [4.0 * f64::from(k % 8), 4.0 * f64::from(k / 8), 0.0]).collect();
     let inline = TopologyParams {
-        initial: quadrille::geometry::params::InitialMesh::Inline {
-            vertices,
-            faces,
-            poles: Default::default(),
-        },
+        initial: skeleton::params::InitialMesh::Inline { vertices, faces, poles: Default::default() },
         ..TopologyParams::default()
     };
     for order in [[6, 14, 22], [14, 22, 6], [22, 6, 14], [22, 14, 6], [14, 6, 22], [6, 22, 14]] {

@@ -1,10 +1,11 @@
 //! Starts from the skeleton keep the limits that concern topology alone (docs/reference/geometry.md §1.4), wherever the domain is.
 
 use crate::domains::{AS_DRAWN, KINDS, Pose, drawn, posed};
+use quadrille::domain::params::Pinched;
 use quadrille::domain::params::{CornerRule, Corners};
 use quadrille::domain::{Domain, LoopParams};
 use quadrille::geometry::limits::Limits;
-use quadrille::geometry::params::{LimitParams, Pinched};
+use quadrille::geometry::params::LimitParams;
 use quadrille::geometry::topological_rejection;
 use quadrille::mesh::code::code;
 use quadrille::mesh::isomorphism::canonical_mesh;

@@ -35,6 +35,17 @@ fn places_that_cannot_be_written_are_refused_before_anything_is_evaluated() {
     for arguments in [&evaluate[..], &export[..], &["man", "--out", "afile"]] {
         refused(folder, arguments, "--out afile: a file; allowed: a folder");
     }
+    // Named by mistake: a config, and a table of somebody else's.
+    fs::write(folder.join("mine.toml"), "mine").unwrap();
+    let neighbours = ["neighbours", &ci, "--string", "", "--out", "mine.toml"];
+    refused(folder, &neighbours, "is there and does not end in .csv");
+    refused(folder, &["explain", "done", "0", "--svg", "mine.toml"], "is there and does not end in .svg");
+    fs::create_dir(folder.join("others")).unwrap();
+    fs::write(folder.join("others/evaluation.csv"), "mine").unwrap();
+    let evaluate = ["evaluate", &ci, "--string", "", "--out", "others"];
+    refused(folder, &evaluate, "its evaluation.csv was not written by `evaluate`");
+    assert_eq!(fs::read(folder.join("mine.toml")).unwrap(), b"mine");
+    assert_eq!(fs::read(folder.join("others/evaluation.csv")).unwrap(), b"mine");
     refused(folder, &["init", "a/b"], "there is no folder a");
     refused(folder, &["init", ""], "found the name \"\"");
     refused(folder, &["init", "--", "-x"], "found the name \"-x\"");
@@ -151,4 +162,16 @@ fn requirements_have_either_direction_unless_the_height_is_sized() {
         &["evaluate", "stiff.toml", "--string", "", "--set", sized],
         "a lower limit beside a height",
     );
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn help_and_version_are_not_lost_on_a_full_disk() {
+    for argument in ["--help", "--version", "help", "run --help"] {
+        let script = format!("'{}' {argument} > /dev/full", env!("CARGO_BIN_EXE_quadrille"));
+        let output = Command::new("sh").args(["-c", &script]).output().unwrap();
+        let told = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(1), "{argument}: {told}");
+        assert!(told.contains("No space left"), "{argument}: {told}");
+    }
 }

@@ -49,8 +49,19 @@ fn the_culprit_is_named() {
     let on = |surface: &str| config(LOOP, "", surface, INITIAL);
     let height = |expression: &str| on(&format!("kind = \"height\"\nexpression = \"{expression}\""));
     let from = |name: &str| config(LOOP, "", SURFACE, &format!("{{ file = \"{name}\" }}"));
+    let tiny = "kind = \"circle\"\ncenter_m = [0, 0]\nradius_m = 1e-300";
+    let round = |i: u32| {
+        let angle = f64::from(i) * std::f64::consts::TAU / 500.0;
+        format!("[{:?}, {:?}]", 10.0 * angle.cos(), 10.0 * angle.sin())
+    };
+    let many = format!("[{}]", (0..500).map(round).collect::<Vec<_>>().join(", "));
     for (text, parts) in [
         (boundary(LOOP), &[][..]),
+        (boundary(tiny), &["c.toml:2", "domain.loop[0]", "extends over 2e-300 × 2e-300 m", "1e-6 to 1e9 m"]),
+        (
+            config(&format!("kind = \"polyline\"\npoints_m = {many}"), "", SURFACE, "\"skeleton\""),
+            &["500 corners, at most 112", "corners = \"auto\""],
+        ),
         (
             polyline("[[0, 0], [10, 10], [10, 0], [0, 10]]"),
             &["c.toml:4", "domain.loop[0]", "edge 0–1 meets edge 2–3"],

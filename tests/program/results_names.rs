@@ -169,7 +169,7 @@ fn folders_of_later_versions_are_refused_and_left_alone() {
         assert!(told.contains("manifest_version 2") && told.contains("reads up to 1"), "{told}");
     }
     assert_eq!(fs::read(manifest.path().join("history.csv")).unwrap(), before);
-    let checkpoint = newer("checkpoint.json", "{\"version\":1", "{\"version\":7");
+    let checkpoint = newer("checkpoint.json", "{\"version\":2", "{\"version\":7");
     let journal = fs::read(checkpoint.path().join("evaluations.journal")).unwrap();
     let refused = run(checkpoint.path(), &["--resume", "--generations", "3"]);
     assert_eq!(refused.status.code(), Some(2));

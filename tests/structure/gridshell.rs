@@ -3,9 +3,10 @@
 use crate::support::{court, dome};
 use quadrille::geometry::Pattern;
 use quadrille::structure::gridshell::{AnalysisError, Proof, Response, analyse, analyse_detailed};
+use quadrille::structure::model::Direction;
 use quadrille::structure::params::{
-    Direction, HeightParams, LoadParams, Quantity, RequirementParams, SectionParams, StructureParams,
-    SupportParams, SupportPlace,
+    HeightParams, LoadParams, Quantity, RequirementParams, SectionParams, StructureParams, SupportParams,
+    SupportPlace,
 };
 use quadrille::structure::section::Section;
 

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::super::breeding::Child;
+use super::super::child::Child;
 use super::super::problem::Evaluation;
 use super::super::record::EvaluatedRow;
 use super::super::state::Indexed;

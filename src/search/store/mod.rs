@@ -1,6 +1,6 @@
 //! What a run writes down while it runs, so that a kill at any moment loses at most the evaluations in flight.
 //!
-//! Three files in the results folder, which the caller has locked ([`crate::output::folder::Folder`]):
+//! Three files in the results folder, which the caller has locked:
 //!
 //! * `checkpoint.json`: the state after the last finished generation: population, rows of `generations.csv`, the
 //!   number of evaluated designs, and the resolved config. Versioned, with a checksum, replaced atomically.
@@ -32,13 +32,13 @@ use serde_json::Value;
 use self::checkpoint::{Checkpoint, Unusable};
 use self::entry::Entry;
 use self::journal::Journal;
-use super::breeding::Child;
+use super::child::Child;
 use super::observer::Observer;
 use super::problem::Evaluation;
 use super::state::{Indexed, Settings, State};
+use crate::files::atomic;
+use crate::files::names::{self, CHECKPOINT, CHECKPOINT_PREVIOUS, JOURNAL};
 use crate::mesh::canonical::Code;
-use crate::output::atomic;
-use crate::output::folder::{self, CHECKPOINT, CHECKPOINT_PREVIOUS, JOURNAL};
 
 pub use compare::differing_keys;
 pub(crate) use entry::text;
@@ -226,7 +226,7 @@ fn checkpoints(folder: &Path) -> Result<Checkpoints, StoreError> {
 
 /// The journal of a folder, and what is in it.
 fn journalled(folder: &Path) -> Result<(PathBuf, journal::Left), StoreError> {
-    let path = folder::journal(folder);
+    let path = names::journal(folder);
     let left = journal::read(&path)?;
     match left.newer {
         Some(found) => Err(StoreError::Newer { path, found }),

@@ -2,7 +2,7 @@
 
 use super::AnalysisError;
 use super::panels::Panels;
-use super::supports::supports;
+use super::supports::{outer_corners, supports};
 use crate::geometry::pattern::Pattern;
 use crate::structure::model::{FrameModel, FrameParts, LoadCase, Material, Member, NodalLoad};
 use crate::structure::params::{ElementsPerMember, LoadParams, StructureParams};
@@ -109,11 +109,6 @@ fn pieces(rule: ElementsPerMember, length: f64, target: f64) -> Result<u32, Anal
     } else {
         Err(AnalysisError::Pattern(format!("a member of {length} m would be split into {count} elements")))
     }
-}
-
-/// The vertices at the corners of loop 0.
-pub(super) fn outer_corners(pattern: &Pattern) -> &[u32] {
-    pattern.loop_corners.first().and_then(|range| pattern.corners.get(range.clone())).unwrap_or(&[])
 }
 
 fn load_case(load: &LoadParams, panels: &Panels) -> LoadCase {

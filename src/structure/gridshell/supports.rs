@@ -1,10 +1,9 @@
 //! Which nodes of a pattern the support rules of a config hold.
 
 use super::AnalysisError;
-use super::model::outer_corners;
 use crate::geometry::pattern::Pattern;
-use crate::structure::model::Support;
-use crate::structure::params::{Direction, SupportNodes, SupportParams, SupportPlace};
+use crate::structure::model::{Direction, Support};
+use crate::structure::params::{SupportNodes, SupportParams, SupportPlace};
 
 /// The supports of a pattern, rule by rule.
 pub fn supports(pattern: &Pattern, rules: &[SupportParams]) -> Result<Vec<Support>, AnalysisError> {
@@ -40,6 +39,11 @@ fn nodes(pattern: &Pattern, named: SupportNodes<'_>) -> Result<Vec<u32>, Analysi
             points.iter().filter_map(|&p| closest_side(pattern, &sides, p)).flatten().copied().collect()
         }
     })
+}
+
+/// The vertices at the corners of loop 0.
+pub(super) fn outer_corners(pattern: &Pattern) -> &[u32] {
+    pattern.loop_corners.first().and_then(|range| pattern.corners.get(range.clone())).unwrap_or(&[])
 }
 
 /// The boundary node closest to a point in plan; of equally close ones the first along the loops.
