@@ -35,8 +35,8 @@ use quadrille::mesh::canonical::Code;
 use quadrille::objectives::{METRICS, Metric};
 use quadrille::random::Rng;
 use quadrille::search::{
-    Evaluation, Identity, Normalisation, Outcome, Preview, Problem, RuleOperator, Settings, Silent, StopFlag,
-    ThreadServer, operators, quantile, run,
+    Evaluation, Identity, Normalisation, Outcome, Preview, Problem, RuleOperator, Settings, Silent, Steps,
+    StopFlag, ThreadServer, operators, quantile, run,
 };
 use quadrille::study::Study;
 
@@ -147,8 +147,16 @@ impl Problem for Shared<'_> {
         Preview { violation: known.violation, objectives: self.objectives.iter().map(value).collect() }
     }
 
+    fn seeds(&self) -> Vec<Tokens> {
+        self.study.seeds()
+    }
+
     fn random(&self, rng: &mut Rng) -> Tokens {
         self.study.random(rng)
+    }
+
+    fn steps(&self, steps: Steps, expressed: &Tokens) -> Vec<Tokens> {
+        self.study.steps(steps, expressed)
     }
 
     fn vary(&self, operator: RuleOperator, expressed: &Tokens, rng: &mut Rng) -> Option<Tokens> {

@@ -3,6 +3,7 @@
 //! A [`Study`] is made once from a config and only read afterwards. It serves the search as its [`Problem`], and the
 //! designer's commands with whole [`Design`]s.
 
+mod frozen;
 mod remarks;
 mod supports;
 mod symmetry;
@@ -24,7 +25,9 @@ use crate::objectives::{self, AnalysedDesign, METRICS, Metric};
 use crate::random::Rng;
 use crate::search::operators::{Growth, Reach};
 use crate::search::params::EquivalenceParams;
-use crate::search::{Evaluation, Identity, Preview, Problem, RuleOperator, SearchParams, round_significant};
+use crate::search::{
+    Evaluation, Identity, Preview, Problem, RuleOperator, SearchParams, Steps, round_significant,
+};
 use crate::skeleton::params::RulesParam;
 use crate::skeleton::{self, InitialError};
 use crate::structure::StructureParams;
@@ -57,11 +60,16 @@ pub struct Study {
     limits: Limits,
     structure: Option<StructureParams>,
     search: SearchParams,
+    /// The designs that the search goes on from.
+    seeds: Vec<Tokens>,
 }
 
 /// Why a config cannot be made ready.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
+    /// The config was not made by [`config::Project`] or [`config::load`], and does not pass what these check.
+    #[error("{}", .0.iter().map(|p| format!("{}: {}", p.key, p.message)).collect::<Vec<_>>().join("\n"))]
+    Config(Vec<config::Problem>),
     /// The surface is faulty.
     #[error("{0}")]
     Surface(#[from] SurfaceError),
@@ -126,6 +134,24 @@ pub enum StudyError {
     /// The initial mesh does not have a symmetry that patterns are to have.
     #[error("topology.symmetry: the initial mesh is not symmetric: {0}")]
     Fold(#[from] FoldError),
+    /// A strip that is to be frozen is not there.
+    #[error(
+        "search.frozen.strips[{place}]: found {number}; allowed: numbers of strips of the initial mesh, at most {largest}"
+    )]
+    FrozenStrip {
+        /// Its place in the list.
+        place: usize,
+        /// Its number.
+        number: u32,
+        /// The largest there is.
+        largest: u32,
+    },
+    /// A region that is to be frozen holds nothing.
+    #[error("search.frozen.regions_m[{place}]: no face of the initial mesh has its middle in this polygon")]
+    FrozenRegion {
+        /// Its place in the list.
+        place: usize,
+    },
     /// The initial mesh is not a valid quad mesh.
     #[error("topology.initial: {0}")]
     Mesh(#[from] BaseMeshError),
@@ -135,6 +161,7 @@ impl StudyError {
     /// The key of the config that says what is wrong.
     pub fn key(&self, config: &Config) -> String {
         match self {
+            Self::Config(problems) => problems.first().map(|p| p.key.to_string()).unwrap_or_default(),
             Self::Surface(error) => error.key(),
             Self::Domain(DomainError::NotCovered { .. }) => match &config.surface {
                 SurfaceParams::Height { .. } => "surface.expression".to_owned(),
@@ -146,6 +173,8 @@ impl StudyError {
             Self::SupportPoint { key, .. } => key.clone(),
             Self::Initial(error) => error.key(&config.topology),
             Self::Mesh(_) => "topology.initial".to_owned(),
+            Self::FrozenStrip { place, .. } => format!("search.frozen.strips[{place}]"),
+            Self::FrozenRegion { place } => format!("search.frozen.regions_m[{place}]"),
             Self::NoMirror { .. } | Self::MirrorTwice { .. } | Self::Fold(_) => {
                 "topology.symmetry".to_owned()
             }
@@ -218,6 +247,7 @@ impl Study {
     /// # Errors
     /// See [`StudyError`]; nothing has been evaluated then.
     pub fn of(config: &Config, inputs: &Inputs) -> Result<Self, StudyError> {
+        config::check(config, inputs).map_err(StudyError::Config)?;
         let surface = surface::build(&config.surface, inputs)?;
         let domain = Domain::resolve_for(&config.domain, &surface, inputs, config.pattern.grain())?;
         let initial = initial_mesh(config, &domain, inputs)?;
@@ -231,7 +261,7 @@ impl Study {
         let objectives =
             config.objectives.minimise.iter().filter_map(|name| objectives::find(name)).collect();
         let mirrors: Vec<domain::Symmetry> = config.topology.symmetry.iter().map(|m| m.kind()).collect();
-        let start = Folded::new(&initial, &symmetry::mirrors(&domain, &mirrors)?)?;
+        let start = start_of(config, &domain, &initial)?;
         let whole = start.unfold(&start.part.mesh, start.part.marker).0;
         Ok(Self {
             rules: match config.topology.rules {
@@ -251,6 +281,8 @@ impl Study {
             pattern: config.pattern.clone(),
             structure: config.structure.clone(),
             search: config.search.clone(),
+            // What is wrong with them was told when the config was checked; only a search needs them.
+            seeds: config::seeds::strings(&config.search, inputs).unwrap_or_default(),
         })
     }
 
@@ -434,10 +466,17 @@ fn marked(base: &BaseMesh, domain: &Domain) -> Result<InitialMesh, StudyError> {
 /// The initial mesh of a config as it is folded along the mirrors that patterns are to have: where strings start.
 ///
 /// # Errors
-/// A symmetry that domain or mesh do not have.
+/// A symmetry that domain or mesh do not have; something to freeze that is not there.
 pub fn start(config: &Config, domain: &Domain, base: &BaseMesh) -> Result<Folded, StudyError> {
+    start_of(config, domain, &marked(base, domain)?)
+}
+
+fn start_of(config: &Config, domain: &Domain, initial: &InitialMesh) -> Result<Folded, StudyError> {
     let kinds: Vec<domain::Symmetry> = config.topology.symmetry.iter().map(|mirror| mirror.kind()).collect();
-    Ok(Folded::new(&marked(base, domain)?, &symmetry::mirrors(domain, &kinds)?)?)
+    let mirrors = symmetry::mirrors(domain, &kinds)?;
+    let mut start = Folded::new(initial, &mirrors)?;
+    frozen::freeze(&mut start, initial, &mirrors, &config.search)?;
+    Ok(start)
 }
 
 impl Design {
@@ -517,8 +556,16 @@ impl Problem for Study {
         }
     }
 
+    fn seeds(&self) -> Vec<Tokens> {
+        self.seeds.clone()
+    }
+
     fn random(&self, rng: &mut Rng) -> Tokens {
         self.growth().random(self.search.initial.kind, rng)
+    }
+
+    fn steps(&self, steps: Steps, expressed: &Tokens) -> Vec<Tokens> {
+        self.growth().steps(steps, expressed)
     }
 
     fn vary(&self, operator: RuleOperator, expressed: &Tokens, rng: &mut Rng) -> Option<Tokens> {

@@ -114,7 +114,7 @@ function startPicked() {
       .map(([m, v]) => `<tr><th scope="row" title="${escapeHtml(m.meaning)}">${escapeHtml(m.label)}</th><td class="num">${escapeHtml(withUnit(v, m))}</td></tr>`);
     const files = d.onFront || facts.misses.some((m) => m.id === d.id) ? facts.design_files.map((ending) => `<a href="designs/${encodeURIComponent(d.id)}${escapeHtml(ending)}">${escapeHtml(ending.replace(/^[._]/, ""))}</a>`).join(" ") : "";
     const standing = d.baseline || !d.onFront ? (d.onFront ? "On the front itself." : d.feasible ? "Feasible, but dominated." : `Not feasible${d.reason ? `: ${escapeHtml(d.reason)}` : ""}.`) : d === balanced ? "Nearest to the best of all objectives at once." : "";
-    box.innerHTML = `<p class="standing">Family ${d.family.letter}: ${escapeHtml(familyText(d.singularities))} · generation ${d.generation}${d.symmetry ? ` · ${escapeHtml(d.symmetry)}` : ""}${d.equal > 1 ? ` · stands for ${plural(d.equal, "design")} with these objectives` : ""}. ${standing}</p>
+    box.innerHTML = `<p class="standing">Family ${d.family.letter}: ${escapeHtml(familyText(d.singularities))} · generation ${d.generation}${d.symmetry ? ` · ${escapeHtml(d.symmetry)}` : ""}${d.equal > 1 ? ` · stands for ${plural(d.equal, "design")} with these objectives` : ""}${d.preferred ? ` · ${ordinal(d.preferred)} by the preferences of the config` : ""}. ${standing}</p>
       <table class="values"><tbody>${rows.join("")}</tbody></table>
       <p class="strings"><span>String</span> ${stringOf(d.string)}${d.expressed !== d.string ? `<br><span>of it expressed</span> ${stringOf(d.expressed)}` : ""}</p>
       ${files ? `<p class="files"><span>Files beside this page</span> ${files}</p>` : ""}

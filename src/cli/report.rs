@@ -2,9 +2,9 @@
 
 use super::folder_args::{FolderArgs, unfinished};
 use super::{CliError, Console};
+use quadrille::files::atomic;
 use quadrille::files::names::REPORT;
 use quadrille::output::load::look;
-use quadrille::files::atomic;
 use quadrille::output::{inputs, report};
 use std::process::ExitCode;
 

@@ -2,12 +2,12 @@
 
 use super::folder_args::{FolderArgs, find, same_code};
 use super::{CliError, Console, exit};
-use quadrille::mesh::Code;
+use quadrille::mesh::{Code, Symmetries};
 use quadrille::objectives::{GOVERNING, METRICS};
 use quadrille::output::consistency::{Contradiction, contradictions};
 use quadrille::output::designs::id;
 use quadrille::output::load::Loaded;
-use quadrille::search::{EvaluatedRow, Evaluation, Problem, evaluate, thread_pool};
+use quadrille::search::{EvaluatedRow, Evaluation, Identity, Problem, evaluate, thread_pool};
 use quadrille::study::Study;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -82,7 +82,7 @@ fn differences(study: &Study, row: &EvaluatedRow) -> Vec<String> {
     }
     let now = evaluate(study, &row.tokens).sanitised(study.objectives.len());
     let identity = study.identify(&row.tokens);
-    let mut differences = words(row, &now, &identity.expressed.to_string());
+    let mut differences = words(row, &now, &identity);
     let measure = ("violation", Some(row.violation.measure), Some(now.violation.measure));
     let metrics = METRICS
         .iter()
@@ -97,10 +97,13 @@ fn differences(study: &Study, row: &EvaluatedRow) -> Vec<String> {
 }
 
 /// What is no number of its own.
-fn words(row: &EvaluatedRow, now: &Evaluation, expressed: &str) -> Vec<String> {
+fn words(row: &EvaluatedRow, now: &Evaluation, identity: &Identity) -> Vec<String> {
     let (then, reason) = (row.violation, row.reason.to_string());
+    // Folders of older versions name none.
+    let symmetry = (row.symmetries != Symmetries::default())
+        .then(|| ("symmetry", row.symmetries.to_string(), identity.symmetries.to_string()));
     let cells = [
-        ("expressed", row.expressed.to_string(), expressed.to_owned()),
+        ("expressed", row.expressed.to_string(), identity.expressed.to_string()),
         ("feasible", row.is_feasible().to_string(), now.violation.is_feasible().to_string()),
         ("violation_stage", then.stage.to_string(), now.violation.stage.to_string()),
         ("reason", reason, now.reason.clone()),
@@ -108,7 +111,8 @@ fn words(row: &EvaluatedRow, now: &Evaluation, expressed: &str) -> Vec<String> {
     // Folders of older versions do not name them.
     let governing = GOVERNING.iter().zip(row.governing.iter().zip(&now.governing));
     let governing = governing.map(|((column, _), (then, now))| (*column, then.to_string(), now.clone()));
-    let different = cells.into_iter().chain(governing).filter(|(_, then, now)| !same_words(then, now));
+    let different =
+        cells.into_iter().chain(symmetry).chain(governing).filter(|(_, then, now)| !same_words(then, now));
     different.map(|(column, then, now)| format!("{column}: file \"{then}\", now \"{now}\"")).collect()
 }
 

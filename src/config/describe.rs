@@ -3,6 +3,7 @@
 use super::Config;
 use crate::domain::params::{CornerRule, Corners, LengthUnit, LoopParams};
 use crate::geometry::params::{Density, PatternParams};
+use crate::search::params::{SearchParams, Seeds};
 use crate::skeleton::params::InitialMesh;
 use crate::structure::model::Direction;
 use crate::structure::params::{
@@ -307,7 +308,8 @@ fn describe_search(config: &Config) -> Vec<String> {
             search.tokens.min,
             search.tokens.max
         ),
-        format!("evaluated first: {}", quoted(&search.initial.seeds)),
+        format!("evaluated first: {}", seeds(&search.seeds)),
+        kept(search),
         match search.survival.by_hypervolume(config.objectives.minimise.len()) {
             true => "of the last front that survives, what adds most to the hypervolume stays",
             false => "of the last front that survives, what is least crowded stays",
@@ -316,9 +318,23 @@ fn describe_search(config: &Config) -> Vec<String> {
     ]
 }
 
-fn quoted(strings: &[String]) -> String {
-    if strings.is_empty() {
-        return "the empty string (the initial mesh)".into();
-    }
-    strings.iter().map(|string| format!("\"{string}\"")).collect::<Vec<_>>().join(", ")
+/// What strings may not do.
+fn kept(search: &SearchParams) -> String {
+    let frozen = &search.frozen;
+    let count =
+        |n: usize, what: &str| (n > 0).then(|| format!("{n} {what}{}", if n == 1 { "" } else { "s" }));
+    let named = [count(frozen.strips.len(), "strip"), count(frozen.regions_m.len(), "region")];
+    let named: Vec<String> = named.into_iter().flatten().collect();
+    let frozen = if named.is_empty() { "nothing".to_owned() } else { named.join(" and ") };
+    let poles = if search.poles { "may end in poles" } else { "may not end in poles" };
+    format!("frozen of the initial mesh: {frozen}; strips {poles}")
+}
+
+fn seeds(seeds: &Seeds) -> String {
+    let initial = "the initial mesh".to_owned();
+    let named = match seeds {
+        Seeds::Strings(strings) => strings.iter().map(|string| format!("\"{string}\"")).collect(),
+        Seeds::Folder(folder) => vec![format!("the front of {}", folder.display())],
+    };
+    [vec![initial], named].concat().join(", ")
 }

@@ -1,6 +1,7 @@
 //! A config with its defaults: written back, hashed, compared.
 
-use super::{Config, KeyPath, names};
+use super::error::Problem;
+use super::{Config, KeyPath, names, schema, seeds};
 use crate::geometry::params::{FREE_SWEEPS, RelaxKind};
 use crate::io::{Inputs, sha256};
 use crate::structure::params::{HeightParams, SectionParams, StructureParams};
@@ -35,6 +36,26 @@ pub(super) fn fill_in(config: &mut Config, given: &Table) {
     }
 }
 
+/// Keys, types and ranges of a config that was not read here, and defaults that nobody has filled in.
+pub(super) fn problems(config: &Config) -> Vec<Problem> {
+    let values = match Table::try_from(config) {
+        Ok(values) => values,
+        Err(error) => return vec![Problem::new(KeyPath::default(), error.to_string())],
+    };
+    let problems = schema::check(&values);
+    if !problems.is_empty() {
+        return problems;
+    }
+    let mut filled = config.clone();
+    fill_in(&mut filled, &values);
+    let missing = differences(config, &filled).into_iter();
+    missing
+        .map(|key| {
+            Problem::new(KeyPath::of(&key), "its default is not filled in: `Project` and `load` do that")
+        })
+        .collect()
+}
+
 /// Width of the section in plan, m: of a round one its largest height.
 fn section_width(structure: &StructureParams) -> f64 {
     let height = match structure.height {
@@ -60,7 +81,9 @@ pub fn hash(config: &Config) -> String {
 
 /// The files that a config names, relative to its folder.
 pub fn input_files(config: &Config) -> Vec<PathBuf> {
-    [config.domain.files(), config.surface.files(), config.topology.files()].concat()
+    let mut files = [config.domain.files(), config.surface.files(), config.topology.files()].concat();
+    files.extend(seeds::file(&config.search.seeds));
+    files
 }
 
 /// Reads the files that a config names; `folder` is where relative paths start.

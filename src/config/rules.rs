@@ -3,10 +3,9 @@
 use super::error::Problem;
 use super::path::KeyPath;
 use super::schema::suggestion;
-use super::{Config, VERSION};
+use super::{Config, VERSION, seeds};
 use crate::domain::params::{Corners, LoopParams};
 use crate::geometry::params::{Density, RelaxKind};
-use crate::grammar::Tokens;
 use crate::io::{Inputs, ReadError};
 use crate::objectives::{self, METRICS};
 use crate::search::params::RuleParams;
@@ -328,6 +327,18 @@ impl Rules<'_> {
             let key = if objectives.ideal.is_empty() { "objectives.reference" } else { "objectives.ideal" };
             self.refuse(key, message);
         }
+        for (key, given) in [("weights", &objectives.weights), ("aspiration", &objectives.aspiration)] {
+            if !given.is_empty() && given.len() != objectives.minimise.len() {
+                let (found, wanted) = (given.len(), objectives.minimise.len());
+                let message =
+                    format!("found {found} numbers; allowed: one for each of the {wanted} objectives");
+                self.refuse(KeyPath::of("objectives").key(key), message);
+            }
+        }
+        for (i, weight) in objectives.weights.iter().enumerate().filter(|(_, weight)| **weight <= 0.0) {
+            let message = format!("found {weight}; allowed: more than 0");
+            self.refuse(KeyPath::of("objectives.weights").index(i), message);
+        }
         for (i, (ideal, reference)) in objectives.ideal.iter().zip(&objectives.reference).enumerate() {
             if ideal >= reference {
                 let message = format!("found {reference}; allowed: more than the ideal, {ideal}");
@@ -351,17 +362,12 @@ impl Rules<'_> {
             let message = format!("found min = {} and max = {}; allowed: min ≤ max", tokens.min, tokens.max);
             self.refuse("search.tokens", message);
         }
-        let key = KeyPath::of("search.initial.seeds");
-        for (i, seed) in config.search.initial.seeds.iter().enumerate() {
-            match seed.parse::<Tokens>().map(|tokens| tokens.len()) {
-                Err(error) => self.refuse(key.index(i), format!("found \"{seed}\": {error}")),
-                Ok(count) if count > tokens.max => {
-                    let message =
-                        format!("found {count} tokens; allowed: at most search.tokens.max, {}", tokens.max);
-                    self.refuse(key.index(i), message);
-                }
-                Ok(_) => {}
-            }
+        if let Err(problems) = seeds::strings(&config.search, self.inputs) {
+            self.problems.extend(problems);
+        }
+        for (i, region) in config.search.frozen.regions_m.iter().enumerate().filter(|(_, r)| r.len() < 3) {
+            let message = format!("found {} points; allowed: a polygon of 3 or more", region.len());
+            self.refuse(KeyPath::of("search.frozen.regions_m").index(i), message);
         }
     }
 }

@@ -5,6 +5,7 @@
 
 use super::error::Problem;
 use super::path::KeyPath;
+use super::retired;
 pub use crate::json::suggestion;
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value as Json};
@@ -168,6 +169,9 @@ impl Checker<'_> {
             && !KeyPath::of(home).holds(path)
         {
             hint = format!("; `{name}` belongs in [{home}]");
+        }
+        if let Some(instead) = retired::instead_of(&path.to_string()) {
+            return format!("unknown key: {instead}");
         }
         format!("unknown key{hint}; allowed here: {}", keys.join(", "))
     }

@@ -29,6 +29,12 @@ pub enum Skip {
     /// No edge of the position is left for the marker.
     #[error("marker lost")]
     MarkerLost,
+    /// The strip would end in a pole, and none may (`search.poles`).
+    #[error("no poles")]
+    NoPoles,
+    /// What is frozen (`search.frozen`) would be touched.
+    #[error("frozen")]
+    Frozen,
     /// Domain rules: the result has more flat faces than the mesh before.
     #[error("flat face")]
     FlatFace,
@@ -77,6 +83,14 @@ pub fn keep_seams(before: &QuadMesh, after: &QuadMesh) -> Result<(), Skip> {
     } else {
         Ok(())
     }
+}
+
+/// Whether a rule has left the frozen faces as they were.
+///
+/// # Errors
+/// [`Skip::Frozen`].
+pub fn keep_frozen(before: &QuadMesh, after: &QuadMesh) -> Result<(), Skip> {
+    if before.frozen() == after.frozen() { Ok(()) } else { Err(Skip::Frozen) }
 }
 
 /// Number of *flat* faces: all vertices of the face lie on one side of the domain, or all but one of its edges (or

@@ -75,6 +75,8 @@ pub struct Walker {
     marker: DartId,
     polyedge: Option<Polyedge>,
     rules: Rules,
+    /// Whether strips may end in poles.
+    poles: bool,
     /// Where rules are tried; taken over only when they hold.
     draft: QuadMesh,
 }
@@ -93,6 +95,7 @@ impl Walker {
             marker: initial.marker,
             polyedge: None,
             rules,
+            poles: initial.poles,
             draft: QuadMesh::default(),
         }
     }
@@ -172,10 +175,14 @@ impl Walker {
             None => (closing, [].as_slice()),
         };
         let course = course(&self.mesh, path, [opening, closing]);
+        if !self.poles && matches!(course, Course::Open(ends) if ends.contains(&End::Pole)) {
+            return Err(Skip::NoPoles);
+        }
         unzip::applicable(&self.mesh, path, course)?;
         self.draft.copy_from(&self.mesh);
         let strip = unzip(&mut self.draft, path, course);
         validate::check_simple(&self.draft)?;
+        rules::keep_frozen(&self.mesh, &self.draft)?;
         self.rules.allow(&self.mesh, &self.draft)?;
         Ok(Added {
             strip,
@@ -192,6 +199,10 @@ impl Walker {
             return Err(Skip::PositionInsideStrip);
         }
         let refined = refinements(&self.mesh, strip)?;
+        let is_refined = |label: StripId| refined.iter().any(|&(other, _)| other == label);
+        if self.mesh.darts().any(|d| self.mesh.dart(d).frozen && is_refined(self.mesh.strip(d))) {
+            return Err(Skip::Frozen);
+        }
         let mut polyedge = self.polyedge.as_ref().map(|polyedge| polyedge.darts.clone());
         let old = if refined.is_empty() {
             &self.mesh
@@ -207,6 +218,7 @@ impl Walker {
         };
         let contraction = contract(old, strip)?;
         rules::keep_seams(&self.mesh, &contraction.mesh)?;
+        rules::keep_frozen(&self.mesh, &contraction.mesh)?;
         let marker = old
             .around(self.marker)
             .skip(1)

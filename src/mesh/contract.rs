@@ -181,7 +181,7 @@ impl Plan {
             }
             pole = true;
         }
-        Ok(Dart { next, prev: d, twin, origin, left, strip: old.strip, pole })
+        Ok(Dart { next, prev: d, twin, origin, left, strip: old.strip, pole, frozen: old.frozen })
     }
 }
 

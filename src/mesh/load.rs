@@ -93,6 +93,8 @@ pub struct InitialMesh {
     pub mesh: QuadMesh,
     /// Where the marker starts.
     pub marker: DartId,
+    /// Whether strips may be added that end in poles.
+    pub poles: bool,
 }
 
 impl InitialMesh {
@@ -126,7 +128,7 @@ impl InitialMesh {
                 .or_else(|| edges.get(&(v, u)).map(|&d| mesh.twin(d)))
                 .ok_or(BaseMeshError::MarkerNotAnEdge { marker: [u, v] })?,
         };
-        Ok(Self { mesh, marker })
+        Ok(Self { mesh, marker, poles: true })
     }
 }
 
@@ -208,6 +210,7 @@ fn add_inside_darts(
                 left: Left::face(FaceId(face)),
                 strip: StripId(u32::MAX),
                 pole: base.poles.get(&face) == Some(&u),
+                frozen: false,
             });
             let twin = mesh.twin(d);
             mesh.at(twin).twin = d;

@@ -75,6 +75,8 @@ pub struct Dart {
     pub strip: StripId,
     /// True if it leaves the pole corner of the pseudo-quad on its left.
     pub pole: bool,
+    /// True if the face on its left is one that no rule may touch.
+    pub frozen: bool,
 }
 
 /// Corner `corner` of the domain is at `vertex`.
@@ -341,6 +343,27 @@ impl QuadMesh {
         }
     }
 
+    /// Freezes the faces with these middles (the mean of their vertices, m): no rule may touch them.
+    pub fn freeze(&mut self, chosen: impl Fn([f64; 3]) -> bool) {
+        for first in self.face_darts() {
+            let around: Vec<DartId> = self.along(first).collect();
+            let sum = around.iter().map(|&d| self.position(self.origin(d))).fold([0.0; 3], add);
+            if chosen(sum.map(|x| x / around.len() as f64)) {
+                around.into_iter().for_each(|d| self.at(d).frozen = true);
+            }
+        }
+    }
+
+    /// What is left of the frozen faces: their darts, how many vertices they share among them, and how many darts have their twin
+    /// among them. Rules that leave all three alone have not touched them.
+    pub fn frozen(&self) -> [usize; 3] {
+        let frozen = || self.darts.iter().filter(|dart| dart.frozen);
+        let mut is_met = vec![false; self.vertex_count()];
+        frozen().for_each(|dart| is_met[dart.origin.index()] = true);
+        let inner = frozen().filter(|dart| self.darts[dart.twin.index()].frozen).count();
+        [frozen().count(), is_met.into_iter().filter(|&met| met).count(), inner]
+    }
+
     /// Position of a vertex, m: where the rules put it, to draw the coarse mesh. No result depends on it.
     pub fn position(&self, v: VertexId) -> [f64; 3] {
         self.positions[v.index()]
@@ -376,7 +399,16 @@ impl QuadMesh {
     ) -> (DartId, DartId) {
         let uv = DartId(self.darts.len() as u32);
         let vu = DartId(uv.0 + 1);
-        let dart = |twin, origin, left| Dart { next: uv, prev: uv, twin, origin, left, strip, pole: false };
+        let dart = |twin, origin, left| Dart {
+            next: uv,
+            prev: uv,
+            twin,
+            origin,
+            left,
+            strip,
+            pole: false,
+            frozen: false,
+        };
         self.darts.push(dart(vu, u, left_uv));
         self.darts.push(dart(uv, v, left_vu));
         (uv, vu)
@@ -409,6 +441,10 @@ impl QuadMesh {
         self.images.clone_from(&other.images);
         self.domain_corners = other.domain_corners;
     }
+}
+
+fn add(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|i| a[i] + b[i])
 }
 
 fn cycle(start: DartId, step: impl Fn(DartId) -> DartId) -> impl Iterator<Item = DartId> {

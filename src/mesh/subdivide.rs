@@ -89,7 +89,7 @@ fn split_edges(mesh: &mut QuadMesh, strip: StripId, n: usize) -> Parts {
 
 fn push_dart(mesh: &mut QuadMesh, origin: VertexId, left: Left, strip: StripId) -> DartId {
     let d = DartId(mesh.darts.len() as u32);
-    let dart = Dart { next: d, prev: d, twin: d, origin, left, strip, pole: false };
+    let dart = Dart { next: d, prev: d, twin: d, origin, left, strip, pole: false, frozen: false };
     mesh.darts.push(dart);
     d
 }

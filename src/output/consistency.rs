@@ -41,7 +41,7 @@ pub fn contradictions(folder: &Path, loaded: &Loaded) -> Result<Vec<Contradictio
     })?);
     let of_front = columns.front_header();
     found.extend(header(folder, PARETO, &of_front)?);
-    let standing = Standing::of(&loaded.evaluated);
+    let standing = Standing::of(&loaded.evaluated, &loaded.front, &loaded.config.objectives);
     let places: BTreeMap<Code, &EvaluatedRow> = loaded.evaluated.iter().map(|row| (row.code, row)).collect();
     found.extend(rows(folder, (PARETO, loaded.naming), &of_front, |record| {
         let code = row(record, &columns)?.code;

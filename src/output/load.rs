@@ -147,7 +147,7 @@ fn tables(folder: &Path, manifest: Manifest, config: Config) -> Result<Loaded, L
 fn cure(folder: &Path) -> &'static str {
     if folder.join(EVALUATION).exists() {
         "`evaluate` wrote it, and its designs are in designs/ already; to have them in a run's folder, give their \
-         strings as search.initial.seeds"
+         strings as search.seeds"
     } else if folder.join(CHECKPOINT).exists() || names::journal(folder).exists() {
         "the run there is unfinished: end it with `quadrille run CONFIG --resume`"
     } else {

@@ -95,8 +95,10 @@ impl Run<'_> {
     pub fn write_tables(&self, folder: &mut Folder) -> Result<(), ResultsError> {
         let columns = Columns::of(&self.project.config.objectives.minimise);
         let Outcome { evaluated, generations: rows, .. } = self.outcome;
+        let objectives = &self.project.config.objectives;
+        let standing = Standing::of(evaluated, &self.outcome.front, objectives);
         let tables: [(&str, Table); 3] = [
-            (names::PARETO, pareto(&self.front(), &Standing::of(evaluated), &columns)),
+            (names::PARETO, pareto(&self.front(), &standing, &columns)),
             (names::GENERATIONS, generations(rows, &columns.objectives)),
             (names::OPERATORS, operators(rows)),
         ];

@@ -2,11 +2,13 @@
 
 use super::child::Child;
 use super::known::{Known, Verdict};
+use super::local::{Footholds, step};
+use super::near::Near;
 use super::observer::Observer;
 use super::operators::{
     OPERATORS, Operator, crossover, drop_last, fit, insert, remove, substitute, swap_pair,
 };
-use super::params::SearchParams;
+use super::params::{Initialiser, SearchParams};
 use super::problem::{Identity, Preview, Problem, RuleOperator};
 use super::record::{Breeding, EvaluatedRow, OperatorCount};
 use super::screening::Screening;
@@ -20,6 +22,8 @@ use crate::random::{Rng, below, chance, stream, unit};
 /// A place in the generation that is still to be filled.
 struct Slot {
     rng: Rng,
+    /// The population that the child will belong to, and its parents with it.
+    island: usize,
     /// Strings refused so far.
     refused: u32,
     /// What could fill it, each of another topology, when geometry chooses.
@@ -30,6 +34,7 @@ struct Slot {
 struct Draft {
     tokens: Tokens,
     operators: u16,
+    island: usize,
 }
 
 /// The strings of one generation so far.
@@ -41,6 +46,8 @@ pub(crate) struct Brood {
     pub(crate) breeding: Breeding,
     /// Slots opened so far: the number of the next random stream.
     slots: usize,
+    /// What is still to be looked at near the initial mesh, in the first generation.
+    near: Near,
     /// Rows that the new children among them will have been given.
     rows: u32,
 }
@@ -49,7 +56,7 @@ impl Default for Brood {
     fn default() -> Self {
         let operators = vec![OperatorCount::default(); OPERATORS.len()];
         let breeding = Breeding { operators, ..Breeding::default() };
-        Self { children: Vec::new(), breeding, slots: 0, rows: 0 }
+        Self { children: Vec::new(), breeding, slots: 0, near: Near::new(), rows: 0 }
     }
 }
 
@@ -73,7 +80,7 @@ pub(crate) fn breed<P: Problem>(
     let (search, seed, stop) = settings;
     let generation = state.next_generation();
     let mut known = std::mem::take(&mut state.known);
-    let (mut slot, end) = (brood.slots, brood.slots + wanted);
+    let (mut slot, mut end) = (brood.slots, brood.slots + wanted);
     let mut nursery = Nursery {
         search,
         generation,
@@ -85,22 +92,34 @@ pub(crate) fn breed<P: Problem>(
         full: Vec::new(),
     };
     if generation == 0 && slot == 0 {
-        nursery.take_seeds(server, observer);
+        nursery.take_seeds(problem, server, observer);
         slot = nursery.brood.children.len();
+    }
+    let mut stopped = None;
+    if generation == 0 && search.initial.kind == Initialiser::Near {
+        stopped = nursery.take_near(problem, server, end, stop);
+        slot = slot.max(nursery.brood.children.len());
+        // Beyond the neighbourhood, random strings for those who are still wanted in the population.
+        end = slot.max(search.population * search.islands);
     }
     nursery.brood.slots = end.max(slot);
     let parents = Parents::of(state, search);
     let mut open: Vec<Slot> = (slot..end)
-        .map(|slot| Slot { rng: stream(seed, generation, slot as u32), refused: 0, candidates: Vec::new() })
+        .filter(|_| stopped.is_none())
+        .map(|slot| Slot {
+            rng: stream(seed, generation, slot as u32),
+            island: slot % search.islands,
+            refused: 0,
+            candidates: Vec::new(),
+        })
         .collect();
-    let mut stopped = None;
     while !open.is_empty() {
         let drafts: Vec<Draft> = open
             .iter_mut()
             .take_while(|_| stop.raised().is_none())
             .map(|slot| match generation == 0 || slot.refused >= nursery.tries {
-                true => random(problem, search, &mut slot.rng),
-                false => draft(problem, search, &parents, &mut slot.rng),
+                true => random(problem, search, slot),
+                false => draft(problem, search, &parents, slot),
             })
             .collect();
         stopped = stop.raised();
@@ -136,26 +155,49 @@ struct Nursery<'a> {
 }
 
 impl Nursery<'_> {
-    /// The empty string and the seeds of the config, refused only if equal to one before.
-    fn take_seeds(&mut self, server: &dyn Server, observer: &mut dyn Observer) {
-        // The config is validated before a run; a seed that does not parse is skipped with a notice all the same.
-        let mut seeds = vec![Tokens::default()];
-        for text in &self.search.initial.seeds {
-            match text.parse() {
-                Ok(tokens) => seeds.push(tokens),
-                Err(error) => observer.notice(&format!("seed {text:?}: {error}")),
-            }
-        }
+    /// The empty string and the seeds, refused only if equal to one before.
+    fn take_seeds<P: Problem>(&mut self, problem: &P, server: &dyn Server, observer: &mut dyn Observer) {
+        let seeds: Vec<Tokens> = [Tokens::default()].into_iter().chain(problem.seeds()).collect();
         let identities = server.identify(&seeds);
         for (tokens, identity) in seeds.into_iter().zip(identities) {
             match identity {
                 Ok(identity) if matches!(self.known.judge(&identity), Verdict::New | Verdict::Neighbour) => {
-                    self.accept(Draft { tokens, operators: 0 }, identity);
+                    let island = self.brood.children.len() % self.search.islands;
+                    self.accept(Draft { tokens, operators: 0, island }, identity);
                 }
                 Ok(_) => {}
                 Err(message) => observer.notice(&format!("seed {tokens}: {message}")),
             }
         }
+    }
+
+    /// What lies near the initial mesh, each topology once, until there are `wanted` children. Gives back the signal if one
+    /// came first.
+    fn take_near<P: Problem>(
+        &mut self,
+        problem: &P,
+        server: &dyn Server,
+        wanted: usize,
+        stop: &StopFlag,
+    ) -> Option<i32> {
+        while self.brood.children.len() < wanted {
+            if let Some(signal) = stop.raised() {
+                return Some(signal);
+            }
+            let Some((tokens, identity)) = self.brood.near.next(problem, server) else { break };
+            let operators = bit(Operator::Near);
+            self.brood.breeding.bred += 1;
+            self.count(operators, |c| c.used += 1);
+            match self.known.judge(&identity) {
+                Verdict::New => {
+                    let island = self.brood.children.len() % self.search.islands;
+                    self.accept(Draft { tokens, operators, island }, identity);
+                }
+                Verdict::Neighbour => self.brood.breeding.neighbours += 1,
+                Verdict::Duplicate | Verdict::Cached(_) => self.brood.breeding.duplicates += 1,
+            }
+        }
+        None
     }
 
     /// Gives back a draft that may be accepted, or refuses it.
@@ -267,6 +309,7 @@ impl Nursery<'_> {
             tokens: draft.tokens,
             identity,
             operators: draft.operators,
+            island: draft.island,
             cached,
         });
     }
@@ -283,8 +326,9 @@ impl Nursery<'_> {
 /// Whom children come from.
 struct Parents<'a> {
     rows: &'a [EvaluatedRow],
-    population: &'a [Member],
-    standings: Vec<Standing>,
+    /// Members and standings of each population.
+    islands: Vec<(&'a [Member], Vec<Standing>)>,
+    footholds: Footholds,
     archive: Vec<usize>,
     from_archive: f64,
 }
@@ -292,23 +336,27 @@ struct Parents<'a> {
 impl<'a> Parents<'a> {
     fn of(state: &'a State, search: &SearchParams) -> Self {
         let rows = &state.rows;
-        let fitness: Vec<Fitness> = state.population.iter().map(|m| rows[m.row as usize].fitness()).collect();
+        let island = |members: &'a Vec<Member>| {
+            let fitness: Vec<Fitness> = members.iter().map(|m| rows[m.row as usize].fitness()).collect();
+            (members.as_slice(), standings(&fitness))
+        };
         Self {
             rows,
-            population: &state.population,
-            standings: standings(&fitness),
+            islands: state.islands.iter().map(island).collect(),
+            footholds: Footholds::of(state),
             archive: state.archive.ids().collect(),
             from_archive: search.archive.parents,
         }
     }
 
     /// A parent's string and its expressed string.
-    fn pick(&self, rng: &mut Rng) -> Option<(&'a Tokens, &'a Tokens)> {
+    fn pick(&self, island: usize, rng: &mut Rng) -> Option<(&'a Tokens, &'a Tokens)> {
         if chance(rng, self.from_archive) && !self.archive.is_empty() {
             let row = &self.rows[self.archive[below(rng, self.archive.len())]];
             return Some((&row.tokens, &row.expressed));
         }
-        let member = &self.population[tournament(&self.standings, rng)?];
+        let (members, standings) = &self.islands[island];
+        let member = &members[tournament(standings, rng)?];
         Some((&member.tokens, &self.rows[member.row as usize].expressed))
     }
 }
@@ -318,26 +366,48 @@ fn bit(operator: Operator) -> u16 {
     place.map_or(0, |place| 1 << place)
 }
 
-fn random<P: Problem>(problem: &P, search: &SearchParams, rng: &mut Rng) -> Draft {
-    let mut tokens = problem.random(rng);
+fn random<P: Problem>(problem: &P, search: &SearchParams, slot: &mut Slot) -> Draft {
+    let mut tokens = problem.random(&mut slot.rng);
     fit(&mut tokens, search.tokens);
-    Draft { tokens, operators: bit(Operator::Random) }
+    Draft { tokens, operators: bit(Operator::Random), island: slot.island }
 }
 
-/// One string: random, rule-wise from one parent, or token-wise from one or two.
-fn draft<P: Problem>(problem: &P, search: &SearchParams, parents: &Parents<'_>, rng: &mut Rng) -> Draft {
+/// One string: random, a local step, rule-wise from one parent, or token-wise from one or two.
+fn draft<P: Problem>(problem: &P, search: &SearchParams, parents: &Parents<'_>, slot: &mut Slot) -> Draft {
+    let rng = &mut slot.rng;
     if chance(rng, search.immigrants) {
-        return random(problem, search, rng);
+        return random(problem, search, slot);
     }
-    let draft = match rule_operator(search, rng) {
-        Some(operator) => rule_wise(problem, operator, parents, rng),
-        None => None,
+    let made = if search.local > 0.0 && chance(rng, search.local) {
+        local(problem, parents, rng)
+    } else {
+        rule_operator(search, rng)
+            .and_then(|operator| rule_wise(problem, operator, parents, slot.island, rng))
     };
-    let Some(mut draft) = draft.or_else(|| token_wise(search, parents, rng)) else {
-        return random(problem, search, rng);
+    let Some((mut tokens, operators)) = made.or_else(|| token_wise(search, parents, slot.island, rng)) else {
+        return random(problem, search, slot);
     };
-    fit(&mut draft.tokens, search.tokens);
-    draft
+    fit(&mut tokens, search.tokens);
+    Draft { tokens, operators, island: slot.island }
+}
+
+/// One or two steps from what is good so far.
+fn local<P: Problem>(problem: &P, parents: &Parents<'_>, rng: &mut Rng) -> Option<(Tokens, u16)> {
+    let expressed = |row: u32| parents.rows[row as usize].expressed.clone();
+    let (tokens, made_by) = step(problem, &parents.footholds, expressed, rng)?;
+    Some((tokens, made_by.into_iter().fold(0, |bits, operator| bits | bit(named(operator)))))
+}
+
+/// How an operator is listed.
+fn named(operator: RuleOperator) -> Operator {
+    match operator {
+        RuleOperator::AppendStrip => Operator::AppendStrip,
+        RuleOperator::AppendNatural => Operator::AppendNatural,
+        RuleOperator::AppendShort => Operator::AppendShort,
+        RuleOperator::AppendDeletion => Operator::AppendDeletion,
+        RuleOperator::DropLast => Operator::DropLast,
+        RuleOperator::SwapPair => Operator::SwapPair,
+    }
 }
 
 /// Draws a rule-wise operator by its share, or none.
@@ -362,24 +432,29 @@ fn rule_wise<P: Problem>(
     problem: &P,
     operator: RuleOperator,
     parents: &Parents<'_>,
+    island: usize,
     rng: &mut Rng,
-) -> Option<Draft> {
-    let (_, expressed) = parents.pick(rng)?;
-    let (made_by, tokens) = match operator {
-        RuleOperator::AppendStrip => (Operator::AppendStrip, problem.vary(operator, expressed, rng)?),
-        RuleOperator::AppendDeletion => (Operator::AppendDeletion, problem.vary(operator, expressed, rng)?),
-        RuleOperator::DropLast => (Operator::DropLast, drop_last(expressed)?),
-        RuleOperator::SwapPair => (Operator::SwapPair, swap_pair(expressed, rng)?),
+) -> Option<(Tokens, u16)> {
+    let (_, expressed) = parents.pick(island, rng)?;
+    let tokens = match operator {
+        RuleOperator::DropLast => drop_last(expressed)?,
+        RuleOperator::SwapPair => swap_pair(expressed, rng)?,
+        _ => problem.vary(operator, expressed, rng)?,
     };
-    Some(Draft { tokens, operators: bit(made_by) })
+    Some((tokens, bit(named(operator))))
 }
 
 /// Crossover of two parents or a copy of one, then insertion, removal and substitution.
-fn token_wise(search: &SearchParams, parents: &Parents<'_>, rng: &mut Rng) -> Option<Draft> {
-    let (first, _) = parents.pick(rng)?;
+fn token_wise(
+    search: &SearchParams,
+    parents: &Parents<'_>,
+    island: usize,
+    rng: &mut Rng,
+) -> Option<(Tokens, u16)> {
+    let (first, _) = parents.pick(island, rng)?;
     let mut operators = 0;
     let mut tokens = if chance(rng, search.crossover) {
-        let (second, _) = parents.pick(rng)?;
+        let (second, _) = parents.pick(island, rng)?;
         let (kind, child) = crossover(first, second, &search.crossover_kinds, search.tokens, rng);
         operators |= bit(kind);
         child
@@ -396,5 +471,5 @@ fn token_wise(search: &SearchParams, parents: &Parents<'_>, rng: &mut Rng) -> Op
     if insert(&mut tokens, rates.insert, search.tokens.max, rng) {
         operators |= bit(Operator::Insert);
     }
-    Some(Draft { tokens, operators })
+    Some((tokens, operators))
 }

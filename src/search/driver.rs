@@ -10,6 +10,7 @@ use super::observer::{Observer, Progress};
 use super::outcome::{Ended, Outcome};
 use super::params::SearchParams;
 use super::problem::{Evaluation, Problem};
+use super::record::GenerationRow;
 use super::server::Server;
 use super::state::{Settings, State};
 use super::stop::StopFlag;
@@ -52,8 +53,12 @@ pub fn run<P: Problem>(
         let mut brood = Brood::default();
         let mut evaluations = Vec::new();
         let mut ended = None;
+        let size = match state.next_generation() {
+            0 => settings.search.first(),
+            _ => settings.search.population.saturating_mul(settings.search.islands),
+        };
         for _ in 0..=settings.search.refills {
-            let wanted = settings.search.population.saturating_sub(filled(&brood.children, &evaluations));
+            let wanted = size.saturating_sub(filled(&brood.children, &evaluations));
             if wanted == 0 || ended.is_some() {
                 break;
             }
@@ -135,13 +140,15 @@ impl Limits {
     }
 }
 
-/// For how many generations the hypervolume has not grown; none while it is empty: a search that has found nothing yet
-/// does not stall.
+/// For how many generations since the first feasible design the search has not got further: the hypervolume has not grown, or,
+/// before it is known, no feasible design was found. None while it is 0: a reference that dominates nothing does not tell.
 fn stalled(state: &State) -> usize {
-    let last = state.generations.last().and_then(|g| g.hypervolume);
-    let Some(last) = last.filter(|&volume| volume > 0.0) else { return 0 };
-    let same = state.generations.iter().rev().take_while(|g| g.hypervolume == Some(last)).count();
-    same.saturating_sub(1)
+    let Some(last) = state.generations.last().filter(|g| g.feasible > 0) else { return 0 };
+    let same = |g: &&GenerationRow| match last.hypervolume {
+        Some(volume) => volume > 0.0 && g.hypervolume == last.hypervolume,
+        None => g.feasible == last.feasible,
+    };
+    state.generations.iter().rev().take_while(same).count().saturating_sub(1)
 }
 
 /// For how many generations nothing was evaluated.

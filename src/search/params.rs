@@ -1,5 +1,7 @@
 //! The `[objectives]` and `[search]` tables of the config.
 
+use std::path::PathBuf;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -16,6 +18,14 @@ pub struct ObjectivesParams {
     /// Reference value of each; empty = 1.1 × the worst of the first feasible evaluations.
     #[serde(default)]
     pub reference: Vec<f64>,
+    /// How much each objective matters: orders the front in its column `preferred`; changes nothing of the search. Empty with an
+    /// `aspiration`: all alike.
+    #[serde(default)]
+    pub weights: Vec<f64>,
+    /// A value of each objective that would do, from which designs are measured for the column `preferred`. Empty with `weights`: the
+    /// ideal.
+    #[serde(default)]
+    pub aspiration: Vec<f64>,
 }
 
 /// How strings are bred (docs/reference/search.md).
@@ -40,10 +50,26 @@ pub struct SearchParams {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("minimum" = 1))]
     pub stall_generations: Option<u32>,
+    /// How many populations live side by side, each of `population` designs.
+    #[schemars(extend("minimum" = 1, "maximum" = 1000))]
+    pub islands: usize,
+    /// After how many generations each island hands copies of its best to the next.
+    #[schemars(extend("minimum" = 1))]
+    pub migrate: u32,
     /// Bounds of a string's length.
     pub tokens: TokenBounds,
     /// The first population.
     pub initial: InitialParams,
+    /// Designs to go on from, always evaluated first: a list of strings, or a results folder of a run with the same initial mesh, of which
+    /// the front is taken. The initial mesh, which the empty string stands for, is evaluated in any case.
+    pub seeds: Seeds,
+    /// What no rule may touch.
+    pub frozen: FrozenParams,
+    /// Whether strips may be added that end in poles.
+    pub poles: bool,
+    /// Share of children that are one or two steps away from a good design found so far.
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
+    pub local: f64,
     /// Probability that a child bred token-wise has two parents.
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub crossover: f64,
@@ -81,8 +107,14 @@ impl Default for SearchParams {
             evaluations: None,
             minutes: None,
             stall_generations: None,
+            islands: 1,
+            migrate: 5,
             tokens: TokenBounds::default(),
             initial: InitialParams::default(),
+            seeds: Seeds::default(),
+            frozen: FrozenParams::default(),
+            poles: true,
+            local: 0.0,
             crossover: 0.9,
             crossover_kinds: CrossoverKinds::default(),
             mutation: MutationParams::default(),
@@ -95,6 +127,28 @@ impl Default for SearchParams {
             duplicates: DuplicateParams::default(),
             archive: ArchiveParams::default(),
         }
+    }
+}
+
+impl SearchParams {
+    /// How many designs are bred in generation 0: those of all islands, or the near ones, if these are more.
+    pub fn first(&self) -> usize {
+        let all = self.population.saturating_mul(self.islands);
+        match self.initial.kind {
+            Initialiser::Near => all.max(self.near(all)),
+            _ => all,
+        }
+    }
+
+    /// The share of the budget that goes to the neighbourhood of the initial mesh, in designs.
+    fn near(&self, generation: usize) -> usize {
+        let share = self.initial.near_share;
+        let designs = match self.evaluations {
+            Some(budget) => share * budget as f64,
+            // The later generations are the rest of all designs.
+            None => share / (1.0 - share) * generation as f64 * f64::from(self.generations),
+        };
+        designs as usize
     }
 }
 
@@ -121,14 +175,41 @@ impl Default for TokenBounds {
 pub struct InitialParams {
     /// How random strings are made.
     pub kind: Initialiser,
-    /// Strings that are always evaluated first; may be shorter than `tokens.min`.
-    pub seeds: Vec<String>,
+    /// Which share of all designs the neighbourhood of the initial mesh may take, where `kind` is `near`.
+    #[schemars(extend("minimum" = 0, "exclusiveMaximum" = 1))]
+    pub near_share: f64,
 }
 
 impl Default for InitialParams {
     fn default() -> Self {
-        Self { kind: Initialiser::Aware, seeds: vec![String::new()] }
+        Self { kind: Initialiser::Aware, near_share: 0.4 }
     }
+}
+
+/// Designs to go on from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Seeds {
+    /// Their strings; they may be shorter than `tokens.min`.
+    Strings(Vec<String>),
+    /// A results folder: the strings of its `pareto.csv`.
+    Folder(PathBuf),
+}
+
+impl Default for Seeds {
+    fn default() -> Self {
+        Self::Strings(Vec::new())
+    }
+}
+
+/// What no rule may touch of the initial mesh: a rule that would is not applicable.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct FrozenParams {
+    /// All faces of these strips, by their numbers as `decode --string ""` prints them.
+    pub strips: Vec<u32>,
+    /// All faces whose middle lies in one of these polygons, m.
+    pub regions_m: Vec<Vec<[f64; 2]>>,
 }
 
 /// How random strings are made.
@@ -141,6 +222,8 @@ pub enum Initialiser {
     Structured,
     /// As structured, but follows the decoding and closes a pair only where that is applicable.
     Aware,
+    /// The neighbourhood of the initial mesh, in a fixed order; random strings, where there is need of them, as `aware`.
+    Near,
 }
 
 /// Which designs of the last front that survives stay: whole fronts before it always do.

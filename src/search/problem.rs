@@ -5,6 +5,7 @@ use crate::grammar::Tokens;
 use crate::mesh::Symmetries;
 use crate::mesh::canonical::Code;
 use crate::random::Rng;
+use serde::{Deserialize, Serialize};
 
 /// A problem over strings. All methods are pure: the same arguments give the same result, on any thread.
 pub trait Problem: Sync {
@@ -27,12 +28,32 @@ pub trait Problem: Sync {
         Preview::unknown(Violation::NONE)
     }
 
+    /// The designs to go on from, evaluated first.
+    fn seeds(&self) -> Vec<Tokens> {
+        Vec::new()
+    }
+
     /// A random string, by the initialiser of the config.
     fn random(&self, rng: &mut Rng) -> Tokens;
 
-    /// Applies a rule-wise operator that has to follow the decoding ([`RuleOperator::AppendStrip`],
-    /// [`RuleOperator::AppendDeletion`]) to a parent's expressed string; `None` where it does not apply.
+    /// The strings that lead from an expressed string one step of this kind further, in a fixed order; several may have the
+    /// same code. None where a problem knows no steps.
+    fn steps(&self, _steps: Steps, _expressed: &Tokens) -> Vec<Tokens> {
+        Vec::new()
+    }
+
+    /// Applies a rule-wise operator that has to follow the decoding (`Append…` of
+    /// [`RuleOperator`]) to a parent's expressed string; `None` where it does not apply.
     fn vary(&self, operator: RuleOperator, expressed: &Tokens, rng: &mut Rng) -> Option<Tokens>;
+}
+
+/// Steps of which all are taken, one after the other.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Steps {
+    /// Each strip that can be deleted, and a strip along each natural polyedge.
+    Natural,
+    /// A strip along each simple polyedge of at most six edges from boundary to boundary.
+    Simple,
 }
 
 /// Operators that work on whole rules (docs/reference/search.md §2).
@@ -40,6 +61,10 @@ pub trait Problem: Sync {
 pub enum RuleOperator {
     /// Append a strip along a valid polyedge reached by the shortest walk.
     AppendStrip,
+    /// Append a strip along a natural polyedge.
+    AppendNatural,
+    /// Append a strip along a simple polyedge of at most four edges.
+    AppendShort,
     /// Append the deletion of a strip reached by the shortest walk.
     AppendDeletion,
     /// Drop the last rule.
@@ -48,8 +73,9 @@ pub enum RuleOperator {
     SwapPair,
 }
 
-/// What a string means, as far as the search must know.
-#[derive(Clone, PartialEq, Debug)]
+/// What a string means, as far as the search must know. Serialised, strings and symmetries are as they are printed, codes in
+/// 32 hexadecimal digits.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Identity {
     /// Placed + reduced code: designs with equal codes share their values.
     pub code: Code,
@@ -67,7 +93,7 @@ pub struct Identity {
 }
 
 /// What is known of a design before its structure is analysed.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Preview {
     /// Stage and measure of a failure that is known by then.
     pub violation: Violation,
@@ -83,7 +109,7 @@ impl Preview {
 }
 
 /// The result of evaluating one design.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Evaluation {
     /// Stage and measure of the failure; [`Violation::NONE`] for a feasible design.
     pub violation: Violation,

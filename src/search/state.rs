@@ -8,7 +8,7 @@ use super::normalise::{Normalisation, Volume, extremes};
 use super::params::SearchParams;
 use super::problem::Evaluation;
 use super::record::{Breeding, EvaluatedRow, GenerationRow};
-use crate::evolve::{EpsilonArchive, Fitness, NonDominated, survive, survive_by_contribution};
+use crate::evolve::{EpsilonArchive, Fitness, NonDominated, standings, survive, survive_by_contribution};
 use crate::grammar::Tokens;
 use crate::mesh::canonical::Code;
 
@@ -30,7 +30,6 @@ pub struct Settings {
 /// A member of the population: a string, and the row that holds its values.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 pub(crate) struct Member {
-    #[serde(with = "super::store::text")]
     pub(crate) tokens: Tokens,
     pub(crate) row: u32,
 }
@@ -42,12 +41,13 @@ pub(crate) struct Indexed {
     pub(crate) neighbourhood: Vec<(Code, u8)>,
 }
 
-/// The state after the last finished generation. Everything but `rows`, `population` and `generations` follows from
+/// The state after the last finished generation. Everything but `rows`, `islands` and `generations` follows from
 /// these three and the settings.
 #[derive(Clone, Debug)]
 pub(crate) struct State {
     pub(crate) rows: Vec<EvaluatedRow>,
-    pub(crate) population: Vec<Member>,
+    /// The populations that live side by side.
+    pub(crate) islands: Vec<Vec<Member>>,
     pub(crate) generations: Vec<GenerationRow>,
     pub(crate) known: Known,
     pub(crate) front: NonDominated,
@@ -62,7 +62,7 @@ impl State {
     pub(crate) fn new(search: &SearchParams) -> Self {
         Self {
             rows: Vec::new(),
-            population: Vec::new(),
+            islands: vec![Vec::new(); search.islands],
             generations: Vec::new(),
             known: Known::new(search.duplicates.min_distance),
             front: NonDominated::default(),
@@ -77,7 +77,7 @@ impl State {
     pub(crate) fn restore(
         settings: &Settings,
         rows: Vec<Indexed>,
-        population: Vec<Member>,
+        islands: Vec<Vec<Member>>,
         generations: Vec<GenerationRow>,
     ) -> Self {
         let mut state = Self::new(&settings.search);
@@ -96,7 +96,7 @@ impl State {
         if let Some(volume) = &mut state.volume {
             volume.restore(&state.front, before);
         }
-        state.population = population;
+        state.islands = islands;
         state
     }
 
@@ -130,8 +130,10 @@ impl State {
     ) {
         let generation = self.next_generation();
         let first = self.rows.len();
-        let mut members = std::mem::take(&mut self.population);
-        let mut made_by = vec![0u16; members.len()];
+        let mut islands: Vec<Vec<(Member, u16)>> = std::mem::take(&mut self.islands)
+            .into_iter()
+            .map(|members| members.into_iter().map(|member| (member, 0)).collect())
+            .collect();
         for (slot, (child, evaluation)) in children.into_iter().zip(evaluations).enumerate() {
             let row = match (child.cached, evaluation) {
                 (Some(row), _) if (row as usize) < self.rows.len() => row,
@@ -146,15 +148,16 @@ impl State {
                 }
                 _ => continue,
             };
-            members.push(Member { tokens: child.tokens, row });
-            made_by.push(child.operators);
+            islands[child.island].push((Member { tokens: child.tokens, row }, child.operators));
         }
-        let fitness: Vec<Fitness> = members.iter().map(|m| self.rows[m.row as usize].fitness()).collect();
-        let survivors = self.survivors(&fitness, settings);
-        for &survivor in &survivors {
-            count(&mut breeding, made_by[survivor], |c| c.survived += 1);
+        for members in islands {
+            let survivors = self.survivors(members, settings);
+            survivors.iter().for_each(|&(_, operators)| count(&mut breeding, operators, |c| c.survived += 1));
+            self.islands.push(survivors.into_iter().map(|(member, _)| member).collect());
         }
-        self.population = survivors.into_iter().map(|i| members[i].clone()).collect();
+        if (generation + 1).is_multiple_of(settings.search.migrate) {
+            self.migrate(settings);
+        }
         let unseen = self.grow_archive(settings, first);
         if let Some(volume) = &mut self.volume {
             volume.update(&self.front, |id| id >= unseen);
@@ -164,13 +167,47 @@ impl State {
     }
 
     /// Who of parents and children stays.
-    fn survivors(&self, all: &[Fitness], settings: &Settings) -> Vec<usize> {
+    fn survivors<T: Clone>(&self, all: Vec<(Member, T)>, settings: &Settings) -> Vec<(Member, T)> {
         let search = &settings.search;
+        let fitness: Vec<Fitness> = all.iter().map(|(m, _)| self.rows[m.row as usize].fitness()).collect();
         let by_hypervolume = search.survival.by_hypervolume(settings.objectives);
-        match self.normalisation() {
-            Some(axes) if by_hypervolume => survive_by_contribution(all, search.population, &axes.reference),
-            _ => survive(all, search.population),
+        let survivors = match self.normalisation() {
+            Some(axes) if by_hypervolume => {
+                survive_by_contribution(&fitness, search.population, &axes.reference)
+            }
+            _ => survive(&fitness, search.population),
+        };
+        survivors.into_iter().map(|i| all[i].clone()).collect()
+    }
+
+    /// Each island hands copies of its best to the next one, the last to the first; all leave before any arrives.
+    fn migrate(&mut self, settings: &Settings) {
+        let count = self.islands.len();
+        if count < 2 {
+            return;
         }
+        let emigrants: Vec<Vec<Member>> = self.islands.iter().map(|members| self.best(members)).collect();
+        for (from, members) in emigrants.into_iter().enumerate() {
+            let to = (from + 1) % count;
+            let mut all: Vec<(Member, ())> =
+                std::mem::take(&mut self.islands[to]).into_iter().map(|member| (member, ())).collect();
+            for member in members {
+                if all.iter().all(|(other, ())| other.row != member.row) {
+                    all.push((member, ()));
+                }
+            }
+            let survivors = self.survivors(all, settings).into_iter();
+            self.islands[to] = survivors.map(|(member, ())| member).collect();
+        }
+    }
+
+    /// The best eighth of a population, one member at least.
+    fn best(&self, members: &[Member]) -> Vec<Member> {
+        let fitness: Vec<Fitness> = members.iter().map(|m| self.rows[m.row as usize].fitness()).collect();
+        let standings = standings(&fitness);
+        let mut order: Vec<usize> = (0..members.len()).collect();
+        order.sort_by(|&a, &b| standings[a].crowded_cmp(&standings[b]).then(a.cmp(&b)));
+        order.into_iter().take((members.len() / 8).max(1)).map(|i| members[i].clone()).collect()
     }
 
     /// Adds a row; true if it enters the front.

@@ -3,6 +3,7 @@
 
 mod cases;
 mod cli;
+mod frozen;
 mod oracle;
 mod properties;
 mod symmetry;

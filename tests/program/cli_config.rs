@@ -112,13 +112,56 @@ fn missing_file() {
 }
 
 #[test]
+fn what_designers_steer_by_is_checked() {
+    let tokens = "tokens = { min = 4, max = 24 }";
+    refused(
+        tokens,
+        "initial = { seeds = [\"\"] }",
+        &["search.initial.seeds: unknown key: it is search.seeds now, which also takes a results folder"],
+    );
+    refused(tokens, "seeds = \"no/folder\"", &["search.seeds: found \"no/folder\"", "pareto.csv"]);
+    refused(tokens, "seeds = \".\"", &["search.seeds: found \".\"", "a list of strings, or the folder"]);
+    refused(
+        tokens,
+        &format!("seeds = [\"{}\"]", "T".repeat(50)),
+        &["search.seeds[0]: found 50 tokens", "at most search.tokens.max, 40"],
+    );
+    refused(
+        tokens,
+        "frozen = { strips = [0, 77] }",
+        &["search.frozen.strips[1]: found 77; allowed: numbers of strips of the initial mesh, at most "],
+    );
+    refused(
+        tokens,
+        "frozen = { regions_m = [[[90, 90], [91, 90], [91, 91]]] }",
+        &["search.frozen.regions_m[0]: no face of the initial mesh has its middle in this polygon"],
+    );
+    refused(
+        tokens,
+        "frozen = { regions_m = [[[0, 0], [1, 0]]] }",
+        &["search.frozen.regions_m[0]: found 2 points; allowed: a polygon of 3 or more"],
+    );
+    let minimise = "minimise = [\"mass\", \"deflection\", \"curvature\", \"edge_spread\"]";
+    refused(
+        minimise,
+        &format!("weights = [1.0]\n{minimise}"),
+        &["objectives.weights: found 1 numbers; allowed: one for each of the 4 objectives"],
+    );
+    refused(
+        minimise,
+        &format!("aspiration = [1.0, 2.0]\nweights = [1, 0, 1, 1]\n{minimise}"),
+        &["objectives.aspiration: found 2 numbers", "objectives.weights[1]: found 0; allowed: more than 0"],
+    );
+}
+
+#[test]
 fn token_bounds_and_seeds() {
     let tokens = "tokens = { min = 4, max = 24 }";
     refused(tokens, "tokens = { min = 24, max = 4 }", &["found min = 24 and max = 4; allowed: min ≤ max"]);
     refused(
         tokens,
-        "initial = { seeds = [\"ATXA\"] }",
-        &["search.initial.seeds[0]: found \"ATXA\": unexpected 'X' at character 2"],
+        "seeds = [\"ATXA\"]",
+        &["search.seeds[0]: found \"ATXA\": unexpected 'X' at character 2"],
     );
 }
 

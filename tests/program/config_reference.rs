@@ -18,8 +18,12 @@ fn reference_is_up_to_date() {
     );
 }
 
-/// Numbers that may be anything finite: places, angles, heights of surfaces, factors, loads, values of objectives.
-const FREE: [&str; 16] = [
+/// Numbers that may be anything finite: places, angles, heights of surfaces, factors, loads, values of objectives, weights (checked with
+/// the objectives).
+const FREE: [&str; 19] = [
+    "regions_m",
+    "aspiration",
+    "weights",
     "mark_m",
     "nodes_near_m",
     "sides_near_m",

@@ -77,6 +77,36 @@ fn begin_and_wait(folder: &Path, lines: usize) -> Child {
     child
 }
 
+/// A run with islands, killed twice and resumed.
+#[test]
+fn islands_killed_and_resumed() {
+    const ISLANDS: [&str; 8] = [
+        "--set",
+        "search.islands=2",
+        "--set",
+        "search.migrate=2",
+        "--set",
+        "search.local=0.5",
+        "--set",
+        "search.initial.kind=near",
+    ];
+    let whole = TempDir::new().unwrap();
+    assert!(command(whole.path(), &ISLANDS).status().unwrap().success());
+    let folder = TempDir::new().unwrap();
+    let resumed = [ISLANDS.as_slice(), &["--resume"]].concat();
+    for (lines, more) in [(20, ISLANDS.as_slice()), (70, resumed.as_slice())] {
+        let mut child = begin(folder.path(), more);
+        while journalled(folder.path()) < lines && child.try_wait().unwrap().is_none() {
+            sleep(Duration::from_millis(1));
+        }
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
+    let last = command(folder.path(), &resumed).output().unwrap();
+    assert!(last.status.success(), "{}", stderr(&last));
+    assert_eq!(tables(folder.path()), tables(whole.path()));
+}
+
 fn stderr(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }

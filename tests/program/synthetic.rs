@@ -162,6 +162,7 @@ fn design(i: usize, panels: usize, rng: &mut Rng) -> Design {
         }),
         symmetry: ["mirror-x", "", "mirror-x mirror-y rotate-2"][kind].to_owned(),
         equal: 1 + kind as u64,
+        preferred: None,
         family: None,
         mesh: Some(mesh),
     }

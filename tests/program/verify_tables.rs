@@ -189,6 +189,25 @@ fn a_changed_reason_expressed_string_or_violation_is_noticed() {
 }
 
 #[test]
+fn a_changed_symmetry_is_noticed() {
+    let mut id = String::new();
+    let edit = |table: &mut Table| {
+        let k = column(table, "symmetry");
+        let row = table.iter_mut().skip(1).find(|row| row[k].contains("mirror-x")).unwrap();
+        id.clone_from(&row[0]);
+        row[k] = "mirror-y".into();
+    };
+    told("history.csv", edit);
+    let edit = |table: &mut Table| {
+        let k = column(table, "symmetry");
+        table.iter_mut().find(|row| row[0] == id).unwrap()[k] = "mirror-y".into();
+    };
+    let (code, text) = verify("history.csv", edit, &["--design", &id]);
+    assert_eq!(code, Some(1), "{text}");
+    assert!(text.contains(&format!("{id}: symmetry: file \"mirror-y\", now \"mirror-x")), "{text}");
+}
+
+#[test]
 fn an_empty_front_is_no_design_to_verify() {
     let empty = |table: &mut Table| table.truncate(1);
     let folder = finished_run();

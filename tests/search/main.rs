@@ -3,6 +3,7 @@
 
 mod evolve_fixtures;
 mod evolve_problems;
+mod near;
 mod resume;
 mod runs;
 mod support;

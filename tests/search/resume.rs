@@ -7,13 +7,13 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use quadrille::grammar::Tokens;
 use quadrille::random::{Rng, below, stream};
 use quadrille::search::{
-    Ended, Evaluation, Identity, Observer, Outcome, Preview, Problem, Progress, RuleOperator, Silent,
-    StopFlag, Store, StoreError, ThreadServer, run,
+    Ended, Evaluation, Identity, Observer, Outcome, Preview, Problem, Progress, RuleOperator, Settings,
+    Silent, StopFlag, Store, StoreError, ThreadServer, run,
 };
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-use crate::support::{Counting, run_silently, run_stored, settings};
+use crate::support::{Counting, island_settings, run_silently, run_stored, settings};
 
 const SIGINT: i32 = 2;
 
@@ -63,11 +63,16 @@ impl Observer for SnapshotAt {
 
 /// The folder of a run killed after `evaluations`.
 fn killed_after(evaluations: u64) -> TempDir {
+    killed(&settings(8), evaluations)
+}
+
+/// The same with other settings.
+fn killed(settings: &Settings, evaluations: u64) -> TempDir {
     let new = || tempfile::tempdir().expect("folder");
     let mut snapshot = SnapshotAt { left: evaluations, from: new(), to: new() };
     let mut store = Store::create(snapshot.from.path(), config()).expect("store");
     let outcome =
-        run_stored(&Counting::new(), &settings(8), &mut store, &StopFlag::new(), &mut snapshot).expect("run");
+        run_stored(&Counting::new(), settings, &mut store, &StopFlag::new(), &mut snapshot).expect("run");
     assert!(outcome.evaluated.len() as u64 > evaluations);
     snapshot.to
 }
@@ -109,6 +114,23 @@ fn killed_at_fifty_moments_and_resumed() {
         let mut store = Store::resume(folder.path(), config()).expect("resumable");
         let outcome =
             run_stored(&counting, &settings(8), &mut store, &StopFlag::new(), &mut Silent).expect("run");
+        assert_eq!(outcome, undisturbed, "killed after {evaluations}");
+        let again = counting.evaluated.into_inner();
+        assert_eq!(again, undisturbed.evaluated.len() as u64 - evaluations, "only what was not finished");
+    }
+}
+
+#[test]
+fn islands_killed_at_any_moment_and_resumed() {
+    let settings = island_settings(8);
+    let undisturbed = run_silently(&Counting::new(), &settings, 1);
+    for moment in 0..30 {
+        let evaluations = 1 + below(&mut stream(2, moment, 0), undisturbed.evaluated.len() - 2) as u64;
+        let folder = killed(&settings, evaluations);
+        let counting = Counting::new();
+        let mut store = Store::resume(folder.path(), config()).expect("resumable");
+        let outcome =
+            run_stored(&counting, &settings, &mut store, &StopFlag::new(), &mut Silent).expect("run");
         assert_eq!(outcome, undisturbed, "killed after {evaluations}");
         let again = counting.evaluated.into_inner();
         assert_eq!(again, undisturbed.evaluated.len() as u64 - evaluations, "only what was not finished");

@@ -3,10 +3,15 @@
 use std::collections::BTreeSet;
 use std::sync::atomic::Ordering;
 
-use quadrille::evolve::{Domination, FAILED, compare_objectives, visible};
-use quadrille::search::{Breeding, Ended, Observer, Outcome, Progress, StopFlag, ThreadServer, run};
+use quadrille::evolve::{Domination, FAILED, Violation, compare_objectives, visible};
+use quadrille::grammar::Tokens;
+use quadrille::random::Rng;
+use quadrille::search::{
+    Breeding, Ended, Evaluation, Identity, Observer, Outcome, Problem, Progress, RuleOperator, Silent,
+    StopFlag, ThreadServer, run,
+};
 
-use crate::support::{Counting, Planted, run_silently, settings};
+use crate::support::{Counting, Planted, island_settings, run_silently, settings};
 
 /// The front is exactly the non-dominated set of all feasible rows to six digits, the earliest of equal ones.
 fn check_front(outcome: &Outcome) {
@@ -32,6 +37,53 @@ fn the_number_of_threads_changes_nothing() {
     for threads in [2, 3, 8] {
         assert_eq!(run_silently(&Counting::new(), &settings(12), threads), reference, "{threads} threads");
     }
+}
+
+#[test]
+fn islands_are_the_same_for_any_number_of_threads_and_exchange_their_best() {
+    let search = |migrate: u32, threads: usize| {
+        let mut settings = island_settings(12);
+        settings.search.migrate = migrate;
+        run_silently(&Counting::new(), &settings, threads)
+    };
+    let reference = search(2, 1);
+    check_front(&reference);
+    for threads in [2, 3, 8] {
+        assert_eq!(search(2, threads), reference, "{threads} threads");
+    }
+    let apart = search(1000, 1);
+    let until = |outcome: &Outcome, generation: u32| {
+        outcome.evaluated.iter().filter(|row| row.generation <= generation).cloned().collect::<Vec<_>>()
+    };
+    assert_eq!(until(&apart, 1), until(&reference, 1), "nobody has moved yet");
+    assert_ne!(until(&apart, 12), until(&reference, 12), "and then somebody has");
+    let of_generation = |g: u32| reference.evaluated.iter().filter(|row| row.generation == g).count();
+    assert!((1..=12).all(|g| of_generation(g) <= 18), "three times the population");
+    assert!(of_generation(1) > 12);
+}
+
+#[test]
+fn what_is_near_comes_first_in_a_fixed_order_and_each_design_once() {
+    let first = |seed: u64, budget: Option<u64>, share: f64| {
+        let mut settings = island_settings(3);
+        (settings.seed, settings.search.evaluations) = (seed, budget);
+        settings.search.initial.near_share = share;
+        let outcome = run_silently(&Counting::new(), &settings, 2);
+        let strings = outcome.evaluated.iter().filter(|row| row.generation == 0);
+        strings.map(|row| row.tokens.to_string()).collect::<Vec<_>>()
+    };
+    let found = first(1, None, 0.4);
+    assert_eq!(found.len(), 36, "0.4 of what three generations of 18 are 0.6 of");
+    assert_eq!(first(2, None, 0.4), found, "no chance involved");
+    // One step, then two, from each of them in order.
+    assert_eq!(found[..9], ["", "D", "PD", "PPD", "TD", "PTD", "ATA", "ATTA", "AoTAo"]);
+    assert_eq!(found[9..12], ["DD", "DPD", "DPPD"]);
+    assert!(!found.contains(&"PDD".to_owned()), "as DPD");
+    assert_eq!(first(1, Some(100), 0.3), found[..30]);
+    assert_eq!(first(1, Some(1000), 0.005), found[..18], "the population at least");
+    let all = first(1, Some(1000), 0.4);
+    let simple = all.iter().position(|string| string == "TATA*").expect("the simple polyedges come last");
+    assert_eq!((all.len(), all[simple + 1].as_str()), (simple + 2, "PPATA"), "and then nothing is left");
 }
 
 #[test]
@@ -166,6 +218,44 @@ fn a_search_that_has_found_nothing_yet_does_not_stall() {
     let counted = volumes.windows(3).filter(|w| w[0] > 0.0 && w[0] == w[2]).count();
     assert_eq!((ended, counted), (Ended::Stall, 1), "{volumes:?}");
     assert!(volumes.iter().filter(|&&volume| volume == 0.0).count() > 0);
+}
+
+/// A problem of which only the design with this code is feasible.
+struct Rare(Counting, u128);
+
+impl Problem for Rare {
+    fn identify(&self, tokens: &Tokens) -> Identity {
+        self.0.identify(tokens)
+    }
+    fn evaluate(&self, tokens: &Tokens) -> Evaluation {
+        let mut evaluation = self.0.evaluate(tokens);
+        if self.identify(tokens).code.0 != self.1 {
+            evaluation.violation = Violation::new(1, 1.0);
+        }
+        evaluation
+    }
+    fn random(&self, rng: &mut Rng) -> Tokens {
+        self.0.random(rng)
+    }
+    fn vary(&self, operator: RuleOperator, expressed: &Tokens, rng: &mut Rng) -> Option<Tokens> {
+        self.0.vary(operator, expressed, rng)
+    }
+}
+
+#[test]
+fn before_the_axes_are_known_a_generation_without_a_feasible_design_is_one_without_progress() {
+    let ended = |feasible: u128| {
+        let mut few = settings(30);
+        (few.search.population, few.search.stall_generations) = (2, Some(4));
+        let problem = Rare(Counting::new(), feasible);
+        let server = ThreadServer::new(&problem, 2).expect("threads");
+        let outcome = run(&problem, &server, &few, &StopFlag::new(), None, &mut Silent).expect("no store");
+        assert!(outcome.generations.iter().all(|row| row.hypervolume.is_none()));
+        (outcome.ended, outcome.generations.len())
+    };
+    // The empty string is evaluated first.
+    assert_eq!(ended(0), (Ended::Stall, 5));
+    assert_eq!(ended(u128::MAX), (Ended::Generations, 31), "nothing feasible, nothing stalls");
 }
 
 #[test]

@@ -7,10 +7,10 @@ use quadrille::grammar::random::uniform;
 use quadrille::grammar::{Token, Tokens};
 use quadrille::mesh::canonical::Code;
 use quadrille::random::{Rng, below};
-use quadrille::search::params::TokenBounds;
+use quadrille::search::params::{Initialiser, TokenBounds};
 use quadrille::search::{
     Evaluation, Identity, Observer, Outcome, Preview, Problem, RuleOperator, SearchParams, Settings, Silent,
-    StopFlag, Store, StoreError, ThreadServer, run,
+    Steps, StopFlag, Store, StoreError, ThreadServer, run,
 };
 
 /// What happens to the evaluations of one design in ten.
@@ -150,6 +150,17 @@ impl Problem for Counting {
         uniform(rng, self.bounds.min..=self.bounds.max)
     }
 
+    fn steps(&self, steps: Steps, expressed: &Tokens) -> Vec<Tokens> {
+        let rules: &[&str] = match steps {
+            Steps::Natural => &["D", "PD", "PPD", "TD", "PTD", "ATA", "ATTA", "AoTAo"],
+            Steps::Simple => &["TATA*", "PPATA"],
+        };
+        let append = |rule: &&str| {
+            expressed.iter().copied().chain(rule.parse::<Tokens>().expect("a rule").0).collect()
+        };
+        rules.iter().map(append).collect()
+    }
+
     fn vary(&self, operator: RuleOperator, expressed: &Tokens, rng: &mut Rng) -> Option<Tokens> {
         let mut tokens = expressed.clone();
         match operator {
@@ -168,6 +179,15 @@ pub fn settings(generations: u32) -> Settings {
         ..SearchParams::default()
     };
     Settings { search, objectives: 3, ideal: vec![], reference: vec![], seed: 7 }
+}
+
+/// Three islands that begin near the initial mesh and take local steps.
+pub fn island_settings(generations: u32) -> Settings {
+    let mut settings = settings(generations);
+    let search = &mut settings.search;
+    (search.population, search.islands, search.migrate, search.local) = (6, 3, 2, 0.4);
+    search.initial.kind = Initialiser::Near;
+    settings
 }
 
 #[allow(dead_code, reason = "every test file uses some of these")]

@@ -156,6 +156,7 @@ impl<'a> Glue<'a> {
             left,
             strip: StripId(u32::MAX),
             pole: self.part.dart(old.next).pole,
+            frozen: old.frozen,
         }
     }
 }

@@ -92,6 +92,8 @@ pub struct Design {
     pub symmetry: String,
     /// How many evaluated designs have the same objectives to six digits, itself included.
     pub equal: u64,
+    /// Its place on the front by weights and aspiration of the config; `None` without these.
+    pub preferred: Option<u64>,
     /// Number of its family where singularities alone make too many: designs a few strips apart.
     pub family: Option<usize>,
     /// Its dense mesh with results; without one the design has no picture.

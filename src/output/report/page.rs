@@ -46,6 +46,7 @@ struct Row<'a> {
     singularities: &'a Option<super::Singularities>,
     symmetry: &'a str,
     equal: u64,
+    preferred: Option<u64>,
     group: Option<usize>,
 }
 
@@ -110,6 +111,7 @@ fn row(design: &Design) -> Row<'_> {
         singularities: &design.singularities,
         symmetry: &design.symmetry,
         equal: design.equal,
+        preferred: design.preferred,
         group: design.family,
     }
 }

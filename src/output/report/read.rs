@@ -130,7 +130,7 @@ struct Shown {
 
 impl Shown {
     fn of(loaded: &Loaded, inputs: Option<&Inputs>) -> Self {
-        let Loaded { config, evaluated, naming, .. } = loaded;
+        let Loaded { config, evaluated, front, naming, .. } = loaded;
         let minimised = &config.objectives.minimise;
         let place = |name: &String| METRICS.iter().position(|metric| metric.name == name);
         let mut places: Vec<usize> = minimised.iter().filter_map(place).collect();
@@ -142,7 +142,7 @@ impl Shown {
             places,
             objectives,
             naming: *naming,
-            standing: Standing::of(evaluated),
+            standing: Standing::of(evaluated, front, &config.objectives),
             study: inputs.and_then(|inputs| Study::of(config, inputs).ok()),
         }
     }
@@ -159,6 +159,7 @@ impl Shown {
             singularities: self.study.as_ref().map(|study| singularities(&study.decode(&row.tokens).mesh)),
             symmetry: row.symmetries.to_string(),
             equal: self.standing.equal_designs(row),
+            preferred: self.standing.preferred(row),
             family: None,
             mesh: None,
         };

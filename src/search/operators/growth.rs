@@ -1,15 +1,19 @@
 //! Operators that follow the decoding, gathered over one initial mesh.
 
 use super::append_deletion::append_deletion;
+use super::append_path::{append_natural, append_short};
 use super::append_strip::append_strip;
-use super::neighbours::{Reach, neighbours};
+use super::neighbours::{Reach, additions, deletions, natural_additions};
 use super::{drop_last, swap_pair};
 use crate::grammar::random::{self, Shares};
-use crate::grammar::{Rules, Tokens, Walker};
+use crate::grammar::{Rules, Token, Tokens, Walker};
 use crate::mesh::InitialMesh;
 use crate::random::Rng;
 use crate::search::params::{Initialiser, TokenBounds};
-use crate::search::problem::RuleOperator;
+use crate::search::problem::{RuleOperator, Steps};
+
+/// Most edges of the simple polyedges along which strips near the initial mesh are added.
+const NEAR: usize = 6;
 
 /// How strings grow from an initial mesh: what a [`Problem`](crate::search::Problem) on real meshes answers to
 /// `random` and `vary`.
@@ -30,7 +34,9 @@ impl Growth<'_> {
         match kind {
             Initialiser::Uniform => random::uniform(rng, lengths),
             Initialiser::Structured => random::structured(rng, lengths, &shares),
-            Initialiser::Aware => random::aware(rng, lengths, &shares, self.initial, self.rules),
+            Initialiser::Aware | Initialiser::Near => {
+                random::aware(rng, lengths, &shares, self.initial, self.rules)
+            }
         }
     }
 
@@ -41,6 +47,10 @@ impl Growth<'_> {
             RuleOperator::AppendDeletion => {
                 append_deletion(self.read(expressed), expressed, self.bounds.max, rng)
             }
+            RuleOperator::AppendNatural => {
+                append_natural(&self.read(expressed), expressed, self.bounds.max, rng)
+            }
+            RuleOperator::AppendShort => append_short(&self.read(expressed), expressed, self.bounds.max, rng),
             RuleOperator::DropLast => drop_last(expressed),
             RuleOperator::SwapPair => swap_pair(expressed, rng),
         }
@@ -48,7 +58,20 @@ impl Growth<'_> {
 
     /// All strings that lead from an expressed string one strip further; several may have the same topology.
     pub fn neighbours(&self, expressed: &Tokens, reach: Reach) -> Vec<Tokens> {
-        neighbours(&self.read(expressed), expressed, reach)
+        let walker = self.read(expressed);
+        appended(expressed, [deletions(&walker), additions(&walker, reach)].concat())
+    }
+
+    /// The strings that lead from an expressed string one step of a kind further, as far as they are not too long.
+    pub fn steps(&self, steps: Steps, expressed: &Tokens) -> Vec<Tokens> {
+        let walker = self.read(expressed);
+        let rules = match steps {
+            Steps::Natural => [deletions(&walker), natural_additions(&walker)].concat(),
+            Steps::Simple => additions(&walker, Reach { edges: NEAR, poles: false }),
+        };
+        let mut strings = appended(expressed, rules);
+        strings.retain(|tokens| tokens.len() <= self.bounds.max);
+        strings
     }
 
     fn start(&self) -> Walker {
@@ -64,29 +87,21 @@ impl Growth<'_> {
     }
 }
 
+/// An expressed string with each of these rules at its end.
+fn appended(expressed: &Tokens, rules: Vec<Vec<Token>>) -> Vec<Tokens> {
+    let append = |rule: Vec<Token>| expressed.iter().copied().chain(rule).collect();
+    rules.into_iter().map(append).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::grammar::{Token, decode};
-    use crate::mesh::BaseMesh;
+    use crate::mesh::samples;
     use crate::random::stream;
-    use std::collections::BTreeMap;
 
-    /// A 3 × 3 grid, its four corners marked.
     fn grid() -> InitialMesh {
-        let vertices = (0..16).map(|k| [f64::from(k % 4), f64::from(k / 4), 0.0]).collect();
-        let face = |k: u32| {
-            let a = k / 3 * 4 + k % 3;
-            vec![a, a + 1, a + 5, a + 4]
-        };
-        let base = BaseMesh {
-            vertices,
-            faces: (0..9).map(face).collect(),
-            poles: BTreeMap::new(),
-            marker: None,
-            corners: vec![vec![0], vec![3], vec![15], vec![12]],
-        };
-        InitialMesh::from_base(&base).expect("a grid")
+        InitialMesh::from_base(&samples::grid(3, 3)).expect("a grid")
     }
 
     fn growth(initial: &InitialMesh) -> Growth<'_> {

@@ -1,12 +1,14 @@
 //! How new strings are made from old ones (docs/reference/search.md §2).
 
 mod append_deletion;
+mod append_path;
 mod append_strip;
 mod crossover;
 mod drop_last;
 mod growth;
 mod insert;
 mod neighbours;
+mod paths;
 mod remove;
 mod substitute;
 mod swap_pair;
@@ -46,8 +48,14 @@ pub enum Operator {
     Remove,
     /// Tokens substituted.
     Substitute,
+    /// Near the initial mesh, found step by step.
+    Near,
     /// A strip appended along a valid polyedge.
     AppendStrip,
+    /// A strip appended along a natural polyedge.
+    AppendNatural,
+    /// A strip appended along a short polyedge.
+    AppendShort,
     /// A deletion appended.
     AppendDeletion,
     /// The last rule dropped.
@@ -57,8 +65,9 @@ pub enum Operator {
 }
 
 /// All operators, in the order in which they are counted and listed.
-pub const OPERATORS: [Operator; 12] = [
+pub const OPERATORS: [Operator; 15] = [
     Operator::Random,
+    Operator::Near,
     Operator::OnePoint,
     Operator::TwoPoint,
     Operator::CutAndSplice,
@@ -67,6 +76,8 @@ pub const OPERATORS: [Operator; 12] = [
     Operator::Remove,
     Operator::Substitute,
     Operator::AppendStrip,
+    Operator::AppendNatural,
+    Operator::AppendShort,
     Operator::AppendDeletion,
     Operator::DropLast,
     Operator::SwapPair,
@@ -84,7 +95,10 @@ impl Operator {
             Self::Insert => "insert",
             Self::Remove => "remove",
             Self::Substitute => "substitute",
+            Self::Near => "near",
             Self::AppendStrip => "append_strip",
+            Self::AppendNatural => "append_natural",
+            Self::AppendShort => "append_short",
             Self::AppendDeletion => "append_deletion",
             Self::DropLast => "drop_last",
             Self::SwapPair => "swap_pair",

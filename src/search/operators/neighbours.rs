@@ -1,8 +1,9 @@
-//! All strings that lead one strip further: every deletion, and every addition along a short simple polyedge.
+//! Strings that lead one strip further: every deletion, and additions along natural or short simple polyedges.
 
+use super::paths::{Polyedge, natural, simple};
 use super::walk::Walks;
-use crate::grammar::{Token, Tokens, Walker};
-use crate::mesh::{StripId, VertexId};
+use crate::grammar::{Token, Walker};
+use crate::mesh::{DartId, StripId, VertexId};
 use std::collections::BTreeSet;
 
 /// How many darts of a strip are tried for its deletion: where the marker stands decides whether it survives.
@@ -17,21 +18,15 @@ pub struct Reach {
     pub poles: bool,
 }
 
-/// The neighbours of an expressed string, whose decoding `walker` has followed to the end, deletions first. Several
-/// may have the same topology.
-pub(super) fn neighbours(walker: &Walker, expressed: &Tokens, reach: Reach) -> Vec<Tokens> {
+/// What is appended to a string, whose decoding `walker` has followed to the end, to delete each strip that can be.
+pub(super) fn deletions(walker: &Walker) -> Vec<Vec<Token>> {
     let walks = Walks::from(walker.mesh(), walker.marker());
-    let mut found = deletions(walker, &walks);
-    found.extend(additions(walker, &walks, reach));
-    found.into_iter().map(|tokens| expressed.iter().chain(&tokens).copied().collect()).collect()
-}
-
-fn deletions(walker: &Walker, walks: &Walks) -> Vec<Vec<Token>> {
     let darts = walks.within(usize::MAX);
     let strips: BTreeSet<StripId> = darts.iter().map(|&dart| walker.mesh().strip(dart)).collect();
     let deletion = |strip: StripId| {
         let nearest = darts.iter().filter(|dart| walker.mesh().strip(**dart) == strip).take(TRIES);
-        nearest.map(|&dart| followed(walks.to(dart), Token::Delete)).find(|tokens| applies(walker, tokens))
+        let mut rules = nearest.map(|&dart| [walks.to(dart), vec![Token::Delete]].concat());
+        rules.find(|tokens| applies(walker, tokens))
     };
     strips.into_iter().filter_map(deletion).collect()
 }
@@ -41,66 +36,20 @@ fn applies(walker: &Walker, tokens: &[Token]) -> bool {
     tokens.iter().map(|&token| ahead.apply(token)).last().is_some_and(|effect| effect.is_applied())
 }
 
-fn followed(mut tokens: Vec<Token>, token: Token) -> Vec<Token> {
-    tokens.push(token);
-    tokens
-}
-
-fn additions(walker: &Walker, walks: &Walks, reach: Reach) -> Vec<Vec<Token>> {
-    let mut found = Vec::new();
+/// The same to add a strip along each simple polyedge within `reach`.
+pub(super) fn additions(walker: &Walker, reach: Reach) -> Vec<Vec<Token>> {
+    let (mesh, walks) = (walker.mesh(), Walks::from(walker.mesh(), walker.marker()));
     let mut started: BTreeSet<VertexId> = BTreeSet::new();
-    for &dart in walks.within(usize::MAX) {
-        let mesh = walker.mesh();
-        if !started.insert(mesh.origin(dart)) {
-            continue;
-        }
-        let opening = match mesh.gap(dart) {
-            Some(_) => Token::Add,
-            None if reach.poles => Token::AddPole,
-            None => continue,
-        };
-        let tokens = followed(walks.to(dart), opening);
-        let mut at = walker.clone();
-        tokens.iter().for_each(|&token| {
-            at.apply(token);
-        });
-        extend(at, tokens, &mut vec![mesh.origin(dart)], reach, &mut found);
-    }
-    found
+    let starts = walks.within(usize::MAX).iter().filter(|&&d| started.insert(mesh.origin(d)));
+    let open = |d: &DartId| reach.poles || mesh.gap(*d).is_some();
+    let starts: Vec<DartId> = starts.copied().filter(open).collect();
+    let paths = starts.into_iter().flat_map(|start| simple(mesh, start, reach.edges, reach.poles));
+    paths.flat_map(|path: Polyedge| path.rules(walker, &walks, reach.poles)).collect()
 }
 
-/// Follows every simple path from where the walker stands, and notes each place where it can be closed.
-fn extend(
-    walker: Walker,
-    tokens: Vec<Token>,
-    passed: &mut Vec<VertexId>,
-    reach: Reach,
-    found: &mut Vec<Vec<Token>>,
-) {
-    let closings: &[Token] = if reach.poles { &[Token::Add, Token::AddPole] } else { &[Token::Add] };
-    for &closing in closings.iter().filter(|_| passed.len() > 1) {
-        if matches!(walker.clone().preview_addition(closing), Some(Ok(_))) {
-            found.push(followed(tokens.clone(), closing));
-        }
-    }
-    if passed.len() > reach.edges {
-        return;
-    }
-    let (mut here, mut so_far) = (walker, tokens);
-    let first = here.marker();
-    loop {
-        let mut ahead = here.clone();
-        ahead.apply(Token::Turn);
-        let position = ahead.position();
-        if !passed.contains(&position) {
-            passed.push(position);
-            extend(ahead, followed(so_far.clone(), Token::Turn), passed, reach, found);
-            passed.pop();
-        }
-        here.apply(Token::Pivot);
-        so_far.push(Token::Pivot);
-        if here.marker() == first {
-            return;
-        }
-    }
+/// The same to add a strip along each natural polyedge.
+pub(super) fn natural_additions(walker: &Walker) -> Vec<Vec<Token>> {
+    let walks = Walks::from(walker.mesh(), walker.marker());
+    let paths = natural(walker.mesh(), &walks);
+    paths.into_iter().flat_map(|path| path.rules(walker, &walks, false)).collect()
 }

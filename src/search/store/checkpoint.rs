@@ -13,7 +13,7 @@ use super::super::state::{Member, State};
 use super::journal::checksum;
 
 /// Version of the format; another one is not read.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// Why a checkpoint is not used.
 #[derive(Debug)]
@@ -54,7 +54,8 @@ pub(super) struct Checkpoint {
     pub(super) config: Value,
     /// Designs evaluated in all finished generations.
     pub(super) evaluations: u64,
-    pub(super) population: Vec<Member>,
+    /// The populations of all islands.
+    pub(super) islands: Vec<Vec<Member>>,
     pub(super) generations: Vec<GenerationRow>,
 }
 
@@ -64,7 +65,7 @@ impl Checkpoint {
             program: env!("CARGO_PKG_VERSION").to_owned(),
             config: config.clone(),
             evaluations: state.rows.len() as u64,
-            population: state.population.clone(),
+            islands: state.islands.clone(),
             generations: state.generations.clone(),
         }
     }
@@ -94,7 +95,7 @@ impl Checkpoint {
             return damaged("its checksum is wrong");
         }
         let checkpoint: Self = serde_json::from_str(envelope.state.get())?;
-        if checkpoint.population.iter().any(|m| u64::from(m.row) >= checkpoint.evaluations) {
+        if checkpoint.islands.iter().flatten().any(|m| u64::from(m.row) >= checkpoint.evaluations) {
             return damaged("its population has no values");
         }
         Ok(checkpoint)

@@ -41,7 +41,6 @@ use crate::files::names::{self, CHECKPOINT, CHECKPOINT_PREVIOUS, JOURNAL};
 use crate::mesh::canonical::Code;
 
 pub use compare::differing_keys;
-pub(crate) use entry::text;
 pub use error::StoreError;
 pub use snapshot::Snapshot;
 
@@ -145,7 +144,7 @@ impl Store {
                 let spare = found.entries.split_off(finished);
                 self.found.spare = spare.into_iter().map(Entry::into_evaluation).collect();
                 let rows: Vec<Indexed> = found.entries.into_iter().map(Entry::into_indexed).collect();
-                return State::restore(settings, rows, checkpoint.population, checkpoint.generations);
+                return State::restore(settings, rows, checkpoint.islands, checkpoint.generations);
             }
             observer.notice(&format!(
                 "the checkpoint after generation {} is not used: {finished} of its {} evaluations are there",
