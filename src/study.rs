@@ -65,6 +65,9 @@ pub struct Study {
 /// Why a config cannot be made ready.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
+    /// The config was not made by [`config::Project`] or [`config::load`], and does not pass what these check.
+    #[error("{}", .0.iter().map(|p| format!("{}: {}", p.key, p.message)).collect::<Vec<_>>().join("\n"))]
+    Config(Vec<config::Problem>),
     /// The surface is faulty.
     #[error("{0}")]
     Surface(#[from] SurfaceError),
@@ -156,6 +159,7 @@ impl StudyError {
     /// The key of the config that says what is wrong.
     pub fn key(&self, config: &Config) -> String {
         match self {
+            Self::Config(problems) => problems.first().map(|p| p.key.to_string()).unwrap_or_default(),
             Self::Surface(error) => error.key(),
             Self::Domain(DomainError::NotCovered { .. }) => match &config.surface {
                 SurfaceParams::Height { .. } => "surface.expression".to_owned(),
@@ -241,6 +245,7 @@ impl Study {
     /// # Errors
     /// See [`StudyError`]; nothing has been evaluated then.
     pub fn of(config: &Config, inputs: &Inputs) -> Result<Self, StudyError> {
+        config::check(config, inputs).map_err(StudyError::Config)?;
         let surface = surface::build(&config.surface, inputs)?;
         let domain = Domain::resolve_for(&config.domain, &surface, inputs, config.pattern.grain())?;
         let initial = initial_mesh(config, &domain, inputs)?;

@@ -27,6 +27,7 @@ pub use schema::config_schema;
 
 use crate::domain::params::DomainParams;
 use crate::geometry::params::PatternParams;
+use crate::io::Inputs;
 use crate::search::params::{ObjectivesParams, SearchParams};
 use crate::skeleton::params::TopologyParams;
 use crate::structure::params::StructureParams;
@@ -94,6 +95,19 @@ fn version() -> u32 {
 
 fn plane() -> SurfaceParams {
     SurfaceParams::Plane { z_m: 0.0 }
+}
+
+/// What keeps a config from being put to use: whatever [`load`] refuses, and defaults that were not filled in, as in one that was
+/// not made by [`load`] or [`Project`]. `inputs` are the files that it names.
+///
+/// # Errors
+/// All problems found.
+pub fn check(config: &Config, inputs: &Inputs) -> Result<(), Vec<Problem>> {
+    let mut problems = resolved::problems(config);
+    if problems.is_empty() {
+        problems = rules::check(config, inputs);
+    }
+    if problems.is_empty() { Ok(()) } else { Err(problems) }
 }
 
 /// Reads a config file with `key=value` arguments laid over it, checks it, and fills in what depends on other keys.

@@ -6,6 +6,7 @@ use super::source::Source;
 use super::{Config, read_inputs, resolved, rules, schema};
 use crate::io::Inputs;
 use std::path::{Path, PathBuf};
+use toml::Table;
 
 /// A checked config and its inputs: each file was read once, and nothing that happens to one on the disk from now on
 /// changes anything.
@@ -26,7 +27,27 @@ impl Project {
     /// # Errors
     /// As [`load`](super::load).
     pub fn open(file: &Path, sets: &[String]) -> Result<Self, ConfigError> {
-        let source = Source::read(file, sets)?;
+        Self::of_source(Source::read(file, sets)?, file)
+    }
+
+    /// As [`Project::open`], from text. `file` stands for it in messages, gives the run its name, and its folder is where the paths in
+    /// the text start; it need not be there.
+    ///
+    /// # Errors
+    /// As [`load`](super::load).
+    pub fn parse(text: &str, file: &Path, sets: &[String]) -> Result<Self, ConfigError> {
+        Self::of_source(Source::parse(file, text.to_owned(), sets)?, file)
+    }
+
+    /// As [`Project::parse`], from values, as a program makes them.
+    ///
+    /// # Errors
+    /// As [`load`](super::load).
+    pub fn of(values: Table, file: &Path) -> Result<Self, ConfigError> {
+        Self::of_source(Source::of(values, file), file)
+    }
+
+    fn of_source(source: Source, file: &Path) -> Result<Self, ConfigError> {
         let stem = file.file_stem().filter(|_| !is_stream(file));
         let stem = stem.map_or("run".into(), |stem| name_of(&stem.to_string_lossy()));
         let mut config = parse(&source)?;

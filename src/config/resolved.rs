@@ -1,6 +1,7 @@
 //! A config with its defaults: written back, hashed, compared.
 
-use super::{Config, KeyPath, names, seeds};
+use super::error::Problem;
+use super::{Config, KeyPath, names, schema, seeds};
 use crate::geometry::params::{FREE_SWEEPS, RelaxKind};
 use crate::io::{Inputs, sha256};
 use crate::structure::params::{HeightParams, SectionParams, StructureParams};
@@ -33,6 +34,26 @@ pub(super) fn fill_in(config: &mut Config, given: &Table) {
         };
         config.objectives.minimise = names.iter().map(|&name| name.to_owned()).collect();
     }
+}
+
+/// Keys, types and ranges of a config that was not read here, and defaults that nobody has filled in.
+pub(super) fn problems(config: &Config) -> Vec<Problem> {
+    let values = match Table::try_from(config) {
+        Ok(values) => values,
+        Err(error) => return vec![Problem::new(KeyPath::default(), error.to_string())],
+    };
+    let problems = schema::check(&values);
+    if !problems.is_empty() {
+        return problems;
+    }
+    let mut filled = config.clone();
+    fill_in(&mut filled, &values);
+    let missing = differences(config, &filled).into_iter();
+    missing
+        .map(|key| {
+            Problem::new(KeyPath::of(&key), "its default is not filled in: `Project` and `load` do that")
+        })
+        .collect()
 }
 
 /// Width of the section in plan, m: of a round one its largest height.

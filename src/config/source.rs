@@ -50,6 +50,11 @@ impl Source {
         Ok(source)
     }
 
+    /// Values without a text; `file` is for messages only.
+    pub fn of(values: Table, file: &Path) -> Self {
+        Self { file: file.to_path_buf(), text: String::new(), values, sets: Vec::new() }
+    }
+
     /// The values, arguments included.
     pub fn values(&self) -> &Table {
         &self.values

@@ -1,5 +1,7 @@
 //! The canonical mesh: all that the stages after the grammar may know of a design (docs/reference/geometry.md §0).
 
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 
 /// A canonical code (docs/reference/grammar.md §7): equal exactly for isomorphic meshes.
@@ -12,6 +14,20 @@ pub struct Code(pub u128);
 impl fmt::Display for Code {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:016x}", (self.0 >> 64) as u64)
+    }
+}
+
+impl Serialize for Code {
+    /// All 128 bits in 32 hexadecimal digits: formats like JSON have no numbers of that size.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(&format_args!("{:032x}", self.0))
+    }
+}
+
+impl<'de> Deserialize<'de> for Code {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let text = String::deserialize(deserializer)?;
+        u128::from_str_radix(&text, 16).map(Code).map_err(D::Error::custom)
     }
 }
 

@@ -13,6 +13,7 @@ pub mod isomorphism;
 pub mod load;
 pub mod quad_mesh;
 pub mod reduce;
+pub mod samples;
 pub mod strips;
 pub mod subdivide;
 pub mod symmetries;

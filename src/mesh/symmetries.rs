@@ -1,5 +1,7 @@
 //! Which symmetries a design has, as the tables write it.
 
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 use std::str::FromStr;
 
@@ -12,6 +14,19 @@ pub struct Symmetries {
     pub mirror_y: bool,
     /// Turning by one n-th of a full turn about the middle: n, 1 for none.
     pub turns: u8,
+}
+
+impl Serialize for Symmetries {
+    /// As it is printed.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+impl<'de> Deserialize<'de> for Symmetries {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        String::deserialize(deserializer)?.parse().map_err(D::Error::custom)
+    }
 }
 
 impl Default for Symmetries {

@@ -119,6 +119,12 @@ pub fn find(name: &str) -> Option<&'static Metric> {
     METRICS.iter().copied().find(|metric| metric.name == name)
 }
 
+/// The metric of a name among values in the order of [`METRICS`], as an evaluation has them; `None` for one that does not exist.
+pub fn named(values: &[Option<f64>], name: &str) -> Option<f64> {
+    let place = METRICS.iter().position(|metric| metric.name == name)?;
+    values.get(place).copied().flatten()
+}
+
 /// All metrics of a design, in the order of [`METRICS`]; what is not finite does not exist.
 pub fn measure(design: &AnalysedDesign) -> Vec<Option<f64>> {
     METRICS.iter().map(|metric| (metric.value)(design).filter(|value| value.is_finite())).collect()

@@ -5,6 +5,7 @@ use crate::grammar::Tokens;
 use crate::mesh::Symmetries;
 use crate::mesh::canonical::Code;
 use crate::random::Rng;
+use serde::{Deserialize, Serialize};
 
 /// A problem over strings. All methods are pure: the same arguments give the same result, on any thread.
 pub trait Problem: Sync {
@@ -58,8 +59,9 @@ pub enum RuleOperator {
     SwapPair,
 }
 
-/// What a string means, as far as the search must know.
-#[derive(Clone, PartialEq, Debug)]
+/// What a string means, as far as the search must know. Serialised, strings and symmetries are as they are printed, codes in
+/// 32 hexadecimal digits.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Identity {
     /// Placed + reduced code: designs with equal codes share their values.
     pub code: Code,
@@ -77,7 +79,7 @@ pub struct Identity {
 }
 
 /// The result of evaluating one design.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Evaluation {
     /// Stage and measure of the failure; [`Violation::NONE`] for a feasible design.
     pub violation: Violation,

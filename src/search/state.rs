@@ -30,7 +30,6 @@ pub struct Settings {
 /// A member of the population: a string, and the row that holds its values.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 pub(crate) struct Member {
-    #[serde(with = "super::store::text")]
     pub(crate) tokens: Tokens,
     pub(crate) row: u32,
 }

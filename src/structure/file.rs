@@ -321,7 +321,7 @@ pub fn failure(error: &FrameError) -> serde_json::Value {
         FrameError::NotFinite => ("not finite", None),
         FrameError::IllConditioned(_) | FrameError::NoDigits => ("ill-conditioned", None),
         FrameError::NotSettled { .. } | FrameError::NoConvergence => ("not converged", None),
-        FrameError::TooLarge(_) => ("failed", None),
+        FrameError::TooLarge(_) | FrameError::NoSuchCase { .. } => ("failed", None),
     };
     let mut value = serde_json::json!({ "error": kind, "message": error.to_string() });
     if let Some(motion) = motion {

@@ -97,6 +97,14 @@ pub enum FrameError {
     /// No buckling factor could be told.
     #[error("the buckling factors cannot be told: the pivots of K + λ Kg are not numbers")]
     NoConvergence,
+    /// A combination of a load case that the model does not have.
+    #[error("there is no load case {case}; the model has {cases}, counted from 0")]
+    NoSuchCase {
+        /// Its number.
+        case: usize,
+        /// How many there are.
+        cases: usize,
+    },
     /// Does not fit.
     #[error(transparent)]
     TooLarge(#[from] TooLarge),
@@ -124,12 +132,28 @@ impl From<buckling::NoConvergence> for FrameError {
 /// See [`FrameError`].
 pub fn frame(model: &FrameModel, analysis: &FrameAnalysis) -> Result<FrameResult, FrameError> {
     let combination: Combination = (0..model.load_cases().len()).map(|c| (c, 1.0)).collect();
+    combined(model, &combination, analysis)
+}
+
+/// Analyses a model under a combination: load cases by number, from 0, each with its factor.
+///
+/// # Errors
+/// See [`FrameError`].
+pub fn combined(
+    model: &FrameModel,
+    combination: &[(usize, f64)],
+    analysis: &FrameAnalysis,
+) -> Result<FrameResult, FrameError> {
+    let cases = model.load_cases().len();
+    if let Some(&(case, _)) = combination.iter().find(|(case, _)| *case >= cases) {
+        return Err(FrameError::NoSuchCase { case, cases });
+    }
     let mut solver = Solver::new(model)?;
     solver.set_sections(model.sections())?;
     let mut loads = Vec::new();
-    solver.member_loads(&combination, &mut loads);
+    solver.member_loads(combination, &mut loads);
     let mut f = vec![0.0; solver.system().unknowns()];
-    solver.load_vector(&combination, &loads, &mut f);
+    solver.load_vector(combination, &loads, &mut f);
     let first = solver.first_order(&f);
     finite(&first.u)?;
     balanced(solver.imbalance(&first, None, &f))?;

@@ -22,7 +22,7 @@ pub mod system;
 mod triangular;
 mod validate;
 
-pub use frame::{FrameAnalysis, FrameError, FrameResult, Order, frame};
+pub use frame::{FrameAnalysis, FrameError, FrameResult, Order, combined, frame};
 pub use gridshell::{AnalysisError, Response, analyse, analyse_detailed};
 pub use model::{FrameModel, FrameParts, ModelError};
 pub use params::StructureParams;

@@ -1,7 +1,8 @@
 //! The shipped configs load, and `great_court.toml` is the one that the documentation shows.
 
-use quadrille::config::{self, Config};
+use quadrille::config::{self, Config, ConfigError, Project};
 use quadrille::geometry::params::RelaxKind;
+use quadrille::study::Study;
 use std::path::Path;
 
 fn load(name: &str) -> Config {
@@ -95,4 +96,56 @@ fn a_free_surface_has_its_own_defaults() {
     assert_eq!(relax(""), (RelaxKind::Uniform, 500, 0.5));
     assert_eq!(relax("[pattern]\nrelax = { kind = \"cotangent\" }"), (RelaxKind::Cotangent, 500, 0.5));
     assert_eq!(relax("[pattern]\nrelax = { sweeps = 7 }"), (RelaxKind::Uniform, 7, 0.5));
+}
+
+const ROOM: &str = r#"
+    domain.loop = [{ kind = "polyline", points_m = [[0, 0], [8, 0], [8, 6], [0, 6]] }]
+    topology.initial = { grid = [2, 2] }
+"#;
+
+#[test]
+fn a_file_text_and_values_give_one_config() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("room.toml");
+    std::fs::write(&file, ROOM).unwrap();
+    let opened = Project::open(&file, &[]).unwrap();
+    let parsed = Project::parse(ROOM, &file, &[]).unwrap();
+    let made = Project::of(ROOM.parse().unwrap(), &file).unwrap();
+    assert_eq!(opened.config.run.name.as_deref(), Some("room"));
+    for other in [parsed, made] {
+        assert_eq!((&other.config, &other.folder), (&opened.config, &opened.folder));
+    }
+}
+
+#[test]
+fn text_and_values_are_refused_as_a_file_is() {
+    let wrong = format!("{ROOM}search.population = 0\n");
+    let told = |error: Option<ConfigError>| error.map(|error| error.to_string()).unwrap_or_default();
+    let by_text = told(Project::parse(&wrong, Path::new("room.toml"), &[]).err());
+    assert!(by_text.starts_with("room.toml:4: search.population: found 0"), "{by_text}");
+    let by_values = told(Project::of(wrong.parse().unwrap(), Path::new("room.toml")).err());
+    assert!(by_values.starts_with("room.toml: search.population: found 0"), "{by_values}");
+}
+
+#[test]
+fn no_study_is_made_of_a_config_that_nobody_checked() {
+    let refused = |config: &Config| {
+        let error = Study::new(config, Path::new(".")).err();
+        error.map(|error| format!("{}: {error}", error.key(config))).unwrap_or_default()
+    };
+    // Its designs were all feasible, with no objective at all.
+    let unchecked: Config = toml::from_str(ROOM).unwrap();
+    let told = refused(&unchecked);
+    assert!(told.starts_with("objectives.minimise: ") && told.contains("not filled in"), "{told}");
+    let checked = Project::parse(ROOM, Path::new("room.toml"), &[]).unwrap().config;
+    assert_eq!(refused(&checked), "");
+    let mut changed = checked.clone();
+    changed.objectives.minimise.clear();
+    assert!(refused(&changed).contains("objectives.minimise"), "{}", refused(&changed));
+    let mut changed = checked.clone();
+    changed.objectives.minimise = vec!["beauty".into()];
+    assert!(refused(&changed).contains("beauty"), "{}", refused(&changed));
+    let mut changed = checked;
+    changed.pattern.max_faces = 0;
+    assert!(refused(&changed).contains("pattern.max_faces: found 0"), "{}", refused(&changed));
 }

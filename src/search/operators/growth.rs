@@ -89,25 +89,11 @@ fn appended(expressed: &Tokens, rules: Vec<Vec<Token>>) -> Vec<Tokens> {
 mod tests {
     use super::*;
     use crate::grammar::{Token, decode};
-    use crate::mesh::BaseMesh;
+    use crate::mesh::samples;
     use crate::random::stream;
-    use std::collections::BTreeMap;
 
-    /// A 3 × 3 grid, its four corners marked.
     fn grid() -> InitialMesh {
-        let vertices = (0..16).map(|k| [f64::from(k % 4), f64::from(k / 4), 0.0]).collect();
-        let face = |k: u32| {
-            let a = k / 3 * 4 + k % 3;
-            vec![a, a + 1, a + 5, a + 4]
-        };
-        let base = BaseMesh {
-            vertices,
-            faces: (0..9).map(face).collect(),
-            poles: BTreeMap::new(),
-            marker: None,
-            corners: vec![vec![0], vec![3], vec![15], vec![12]],
-        };
-        InitialMesh::from_base(&base).expect("a grid")
+        InitialMesh::from_base(&samples::grid(3, 3)).expect("a grid")
     }
 
     fn growth(initial: &InitialMesh) -> Growth<'_> {

@@ -17,14 +17,11 @@ use crate::mesh::canonical::Code;
 pub(super) struct Entry {
     pub(super) generation: u32,
     pub(super) slot: u32,
-    #[serde(with = "text")]
     tokens: Tokens,
-    #[serde(with = "text")]
     expressed: Tokens,
-    #[serde(with = "hex")]
     code: Code,
     /// Left out where it has none.
-    #[serde(default, with = "text", skip_serializing_if = "is_unsymmetric")]
+    #[serde(default, skip_serializing_if = "is_unsymmetric")]
     symmetries: Symmetries,
     /// Equivalence codes and their numbers of deletions; left out where it is the code alone.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -40,7 +37,7 @@ pub(super) struct Entry {
 }
 
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
-struct Nearby(#[serde(with = "hex")] Code, u8);
+struct Nearby(Code, u8);
 
 impl Entry {
     pub(super) fn of(generation: u32, slot: u32, child: &Child, evaluation: &Evaluation) -> Self {
@@ -102,40 +99,4 @@ impl Entry {
 
 fn is_unsymmetric(symmetries: &Symmetries) -> bool {
     *symmetries == Symmetries::default()
-}
-
-/// Strings and symmetries as they are printed.
-pub(crate) mod text {
-    use serde::de::Error;
-    use serde::{Deserialize, Deserializer, Serializer};
-    use std::fmt::Display;
-    use std::str::FromStr;
-
-    pub(crate) fn serialize<S: Serializer>(value: &impl Display, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_str(value)
-    }
-
-    pub(crate) fn deserialize<'de, D: Deserializer<'de>, T>(deserializer: D) -> Result<T, D::Error>
-    where
-        T: FromStr<Err: Display>,
-    {
-        String::deserialize(deserializer)?.parse().map_err(D::Error::custom)
-    }
-}
-
-/// Codes in all their 128 bits.
-mod hex {
-    use serde::de::Error;
-    use serde::{Deserialize, Deserializer, Serializer};
-
-    use crate::mesh::canonical::Code;
-
-    pub(super) fn serialize<S: Serializer>(code: &Code, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_str(&format_args!("{:032x}", code.0))
-    }
-
-    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Code, D::Error> {
-        let text = String::deserialize(deserializer)?;
-        u128::from_str_radix(&text, 16).map(Code).map_err(D::Error::custom)
-    }
 }

@@ -41,7 +41,6 @@ use crate::files::names::{self, CHECKPOINT, CHECKPOINT_PREVIOUS, JOURNAL};
 use crate::mesh::canonical::Code;
 
 pub use compare::differing_keys;
-pub(crate) use entry::text;
 pub use error::StoreError;
 pub use snapshot::Snapshot;
 
