@@ -97,8 +97,11 @@ impl Rules<'_> {
             }
             let next = &points[(i + 1) % points.len()];
             if point.get(..2) == next.get(..2) {
-                let message =
-                    format!("found the same point again right after ({point:?}); allowed: distinct points");
+                let cure = match i + 1 == points.len() {
+                    true => "leave the last point out: a loop closes by itself",
+                    false => "allowed: distinct points",
+                };
+                let message = format!("found the same point again right after ({point:?}); {cure}");
                 self.refuse(key.index(i), message);
             }
         }

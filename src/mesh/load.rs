@@ -10,6 +10,9 @@ use super::validate::{self, Invalid};
 /// Corner numbers must fit a set in 128 bits with room for the factor 1000 of the canonical code.
 pub const MAX_CORNERS: usize = 112;
 
+/// Most faces of an initial mesh. It is to be coarse: work on it grows with the square of its faces and more.
+pub const MAX_FACES: usize = 10_000;
+
 /// So that means and areas of coordinates stay finite.
 const MAX_COORDINATE_M: f64 = 1e100;
 
@@ -53,6 +56,10 @@ pub enum BaseMeshError {
     MarkerNotAnEdge { marker: [u32; 2] },
     #[error("corner {corner} marks vertex {vertex}, which is not on the boundary")]
     CornerInside { corner: usize, vertex: u32 },
+    #[error(
+        "{count} faces, but at most {MAX_FACES} are supported: the mesh is to be coarse, pattern.panels makes it dense"
+    )]
+    TooManyFaces { count: usize },
     #[error("{count} corners, but at most {MAX_CORNERS} are supported")]
     TooManyCorners { count: usize },
     #[error("the mesh breaks condition {0}")]
@@ -144,6 +151,9 @@ fn check_plain(base: &BaseMesh) -> Result<(), BaseMeshError> {
     };
     if base.faces.is_empty() {
         return Err(BaseMeshError::NoFaces);
+    }
+    if base.faces.len() > MAX_FACES {
+        return Err(BaseMeshError::TooManyFaces { count: base.faces.len() });
     }
     if let Some(vertex) = base.vertices.iter().position(|p| !p.iter().all(|x| x.abs() <= MAX_COORDINATE_M)) {
         return Err(BaseMeshError::NotFinite { vertex: vertex as u32 });

@@ -35,7 +35,9 @@ pub enum ManifestError {
     #[error("it is not the manifest of a run")]
     Foreign,
     /// It is not what the program writes.
-    #[error(transparent)]
+    #[error(
+        "not as the program writes it ({0}): `quadrille run CONFIG --resume` makes it anew where the journal is left"
+    )]
     Format(#[from] serde_json::Error),
 }
 

@@ -6,7 +6,7 @@ use crate::domain::Domain;
 use crate::io::text::decode;
 use crate::io::{Input, Inputs, LengthUnit, MEET, ReadError, compas, obj};
 use crate::json;
-use crate::mesh::load::MAX_CORNERS;
+use crate::mesh::load::{MAX_CORNERS, MAX_FACES};
 use crate::mesh::{BaseMesh, BaseMeshError, InitialMesh, base_json};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -42,7 +42,9 @@ pub enum InitialError {
         holes: usize,
     },
     /// A grid too small or too large.
-    #[error("topology.initial: grid = [{m}, {n}]: each number must lie between 1 and 1000")]
+    #[error(
+        "topology.initial: grid = [{m}, {n}]: each number must lie between 1 and 1000, their product be at most {MAX_FACES}"
+    )]
     GridSize {
         /// Faces one way.
         m: usize,
@@ -218,7 +220,7 @@ fn grid_mesh([m, n]: [usize; 2], domain: &Domain) -> Result<BaseMesh, InitialErr
     if corners != 4 || holes != 0 {
         return Err(InitialError::GridDomain { corners, holes });
     }
-    if !(1..=1000).contains(&m) || !(1..=1000).contains(&n) {
+    if !(1..=1000).contains(&m) || !(1..=1000).contains(&n) || m * n > MAX_FACES {
         return Err(InitialError::GridSize { m, n });
     }
     let outer = &domain.loops[0];

@@ -68,6 +68,8 @@ fn the_culprit_is_named() {
         ),
         (polyline("[[0, 0], [10, 0], [nan, 10]]"), &["c.toml:4", "domain.loop[0].points_m[2][0]", "nan"]),
         (polyline("[[0, 0], [10, 0], [10, 0], [0, 10]]"), &["c.toml:4", "points_m[1]", "the same point"]),
+        (polyline("[[0, 0], [10, 0], [0, 10], [0, 0]]"), &["points_m[3]", "leave the last point out"]),
+        (config(LOOP, "", SURFACE, "{ grid = [1000, 1000] }"), &["grid = [1000, 1000]", "at most 10000"]),
         (loops(&circle(20.0, 20.0, 2.0)), &["c.toml:5", "loop 1, a hole, lies outside loop 0"]),
         (loops(&circle(5.0, 5.0, 20.0)), &["c.toml:5", "loop 1, a hole, lies outside loop 0"]),
         (loops(&circle(5.0, 2.0, 2.0)), &["loops 0 and 1 cross or touch near (5.000000, 0.000000)"]),
