@@ -5,7 +5,7 @@ use super::forces::{MemberForces, Utilisation};
 use super::mechanism::{self, FreeMotion};
 use super::model::{FrameModel, MemberId, NodeId};
 use super::second_order::{LeastStep, Lost, Reason};
-use super::solver::{Combination, Refined, Solver, Unsound};
+use super::solver::{Combination, Refined, Rounding, Solver, Unsound};
 use super::system::{DOFS, System, TooLarge};
 use nalgebra::Vector3;
 
@@ -166,7 +166,7 @@ pub fn frame(model: &FrameModel, analysis: &FrameAnalysis) -> Result<FrameResult
     balanced(solver.imbalance(&first, None, &f))?;
     let mut axial = Vec::new();
     solver.axial_forces_of(&first, &mut axial);
-    silence(&solver, &first.u, &mut axial);
+    silence_refined(&solver, &first.u, rounding, &mut axial);
     let buckling_factors = buckling::factors(&mut solver, &axial, analysis.buckling_modes)?;
     let result = if analysis.order == Order::Second {
         if rounding.uncorrected > CORRECTABLE {
@@ -215,6 +215,20 @@ pub fn silence(solver: &Solver<'_>, u: &[f64], axial: &mut [f64]) {
         let by_turning = k.xy.couple + k.xz.couple + k.torsion / axes.length;
         if n.abs() <= 256.0 * f64::EPSILON * (k.axial * moved + by_turning * turned) {
             *n = 0.0;
+        }
+    }
+}
+
+/// The same where displacements are refined and what rounding leaves of them is known: in a floppy frame an N that does
+/// not count beside the displacements may be known all the same, and buckle it.
+fn silence_refined(solver: &Solver<'_>, u: &[f64], rounding: Rounding, axial: &mut [f64]) {
+    let found = axial.to_vec();
+    silence(solver, u, axial);
+    let energy = rounding.error.max(256.0 * f64::EPSILON).powi(2) * solver.twice_energy(u);
+    for ((n, found), k) in axial.iter_mut().zip(found).zip(solver.stiffness()) {
+        // No more of N can be wrong than has the energy of what is left.
+        if found * found > energy * k.axial {
+            *n = found;
         }
     }
 }

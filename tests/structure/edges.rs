@@ -171,3 +171,18 @@ fn fewer_factors_than_asked_for_are_remarked_on() {
         result.remarks()
     );
 }
+
+#[test]
+fn no_factor_of_an_ill_conditioned_model_is_wrong() {
+    // Of 50 digits.
+    let exact = [4.791981373e-5, 5.806450446e-4, 8.230470483e-4];
+    match answer("ill_42") {
+        Ok(result) => {
+            for (factor, exact) in result.buckling_factors.iter().zip(exact) {
+                assert!((factor / exact - 1.0).abs() < 1e-6, "{factor} for {exact}");
+            }
+            assert_eq!(result.buckling_factors.len(), 3);
+        }
+        Err(error) => assert!(is_ill_conditioned(&error), "{error}"),
+    }
+}
