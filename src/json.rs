@@ -1,6 +1,10 @@
 //! JSON that users and other programs write, read with errors in their words.
 
-use serde::de::DeserializeOwned;
+use serde::de::{
+    Deserialize, DeserializeOwned, Deserializer, MapAccess, Visitor, value::MapAccessDeserializer,
+};
+use std::fmt;
+use std::marker::PhantomData;
 
 /// Why a text is not what was expected: the place in it, by keys, and what is wrong there, with line and column.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
@@ -13,11 +17,24 @@ pub struct JsonError {
 }
 
 fn place(key: &str) -> String {
-    if key.is_empty() { String::new() } else { format!("{key}: ") }
+    if key.is_empty() { String::new() } else { format!("{}: ", shown(key)) }
+}
+
+/// A text of the file as a terminal may show it: control characters escaped, and not longer than a line.
+fn shown(text: &str) -> String {
+    const MOST: usize = 200;
+    let escape = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.to_string() };
+    let start: String = text.chars().take(MOST).map(escape).collect();
+    if text.chars().nth(MOST).is_some() { format!("{start}…") } else { start }
 }
 
 /// What serde calls the types of Rust, and what a user calls them.
-const WORDS: [(&str, &str); 5] = [
+const WORDS: [(&str, &str); 10] = [
+    ("EOF while parsing a value at line 1 column 0", "the file is empty"),
+    ("EOF while parsing", "the file ends within"),
+    ("trailing characters", "something follows where nothing may, such as one number too many in a list,"),
+    ("invalid type: sequence", "found a list"),
+    ("invalid type: map", "found an object"),
     ("expected u32", "expected a whole number ≥ 0"),
     ("expected u64", "expected a whole number ≥ 0"),
     ("expected f64", "expected a number"),
@@ -27,6 +44,29 @@ const WORDS: [(&str, &str); 5] = [
 
 /// Words that other programs write for numbers that JSON does not have, in small letters.
 const NO_NUMBERS: [&str; 7] = ["nan", "inf", "infinity", "1.#qnan", "1.#ind", "1.#inf", "nan(ind)"];
+
+/// An object with keys. serde also takes a bare list for one, in the order of the fields of a Rust struct, which no user
+/// knows.
+#[derive(Default)]
+pub struct Object<T>(pub T);
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Object<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Keys<T>(PhantomData<T>);
+        impl<'de, T: Deserialize<'de>> Visitor<'de> for Keys<T> {
+            type Value = T;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("an object with keys")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<T, A::Error> {
+                T::deserialize(MapAccessDeserializer::new(map))
+            }
+        }
+        deserializer.deserialize_map(Keys(PhantomData)).map(Self)
+    }
+}
 
 /// Reads one value and nothing after it; a byte order mark may stand before it.
 ///
@@ -68,7 +108,7 @@ fn unknown_name(text: &str) -> Option<String> {
     let (list, place) = rest.rfind(" at line ").map_or((rest, ""), |at| rest.split_at(at));
     let known: Vec<&str> = list.split('`').skip(1).step_by(2).collect();
     let hint = suggestion(name, &known);
-    Some(format!("unknown {what} `{name}`{hint}; allowed here: {}{place}", known.join(", ")))
+    Some(format!("unknown {what} `{}`{hint}; allowed here: {}{place}", shown(name), known.join(", ")))
 }
 
 /// `, did you mean …?`, if a known word is near.
@@ -127,13 +167,18 @@ mod tests {
             error(r#"{"faces": [[0, 1], [2, -3]]}"#),
             "faces[1][1]: invalid value: integer `-3`, expected a whole number ≥ 0 at line 1 column 25"
         );
-        assert_eq!(error("{} x"), "trailing characters at line 1 column 4");
+        assert_eq!(
+            error("{} x"),
+            "something follows where nothing may, such as one number too many in a list, at line 1 column 4"
+        );
         for word in ["NaN", "nan", "-Infinity", "Infinity", "-inf", "1.#QNAN"] {
             let text = error(&format!("{{\"faces\":\n [[0, 1], [2, {word}]]}}"));
             assert!(text.starts_with(&format!("faces[1][1]: found {word}, which is no number")), "{text}");
             assert!(text.contains("line 2"), "{text}");
         }
         assert_eq!(read::<Faces>("\u{feff}{}"), Ok(Faces::new()));
-        assert_eq!(error(""), "EOF while parsing a value at line 1 column 0");
+        assert_eq!(error(""), "the file is empty");
+        let long = error(&format!("{{\"a\\u001b{}\": 1}}", "x".repeat(100_000)));
+        assert!(long.len() < 1_000 && !long.contains('\u{1b}'), "{long}");
     }
 }

@@ -51,13 +51,21 @@ enum Format {
 /// Runs the command.
 pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     let name = args.model.display();
-    let text = text::read(&args.model).map_err(CliError::read(&args.model))?;
+    let refused = |error: &dyn std::fmt::Display| match args.format {
+        Format::Json => print_result(format!("{}\n", file::refusal(&error)).as_bytes()),
+        Format::Text => Ok(()),
+    };
+    let text = match text::read(&args.model) {
+        Ok(text) => text,
+        Err(error) => {
+            refused(&error)?;
+            return Err(CliError::read(&args.model)(error));
+        }
+    };
     let (model, analysis) = match file::read(&text) {
         Ok(read) => read,
         Err(error) => {
-            if args.format == Format::Json {
-                print_result(format!("{}\n", file::refusal(&error)).as_bytes())?;
-            }
+            refused(&error)?;
             return Err(CliError::Input(format!("{name}: {error}")));
         }
     };

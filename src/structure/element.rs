@@ -234,19 +234,34 @@ impl Stiffness {
     /// Strain energy × 2 of the element, from its deformations alone: of a rigid motion it is zero but for the
     /// square of a rounding error, where uᵀKu would be zero but for a rounding error.
     pub fn twice_energy(&self, e: &Ends, length: f64) -> f64 {
-        let bending = |b: &Bending, chord: f64, r1: f64, r2: f64| {
-            let (a, c) = (r1 - chord, r2 - chord);
-            b.near * (a * a + c * c) + 2.0 * b.far * a * c
-        };
-        // The chord turns by (v2 − v1)/L about z and −(w2 − w1)/L about y.
-        let about_z = -e.shift.y / length;
-        let about_y = e.shift.z / length;
+        let bending = |b: &Bending, [a, c]: [f64; 2]| b.near * (a * a + c * c) + 2.0 * b.far * a * c;
+        let (xy, xz) = turns_of_ends(e, length);
         let twist = e.r1.x - e.r2.x;
         self.axial * e.shift.x * e.shift.x
             + self.torsion * twist * twist
-            + bending(&self.xy, about_z, e.r1.z, e.r2.z)
-            + bending(&self.xz, about_y, e.r1.y, e.r2.y)
+            + bending(&self.xy, xy)
+            + bending(&self.xz, xz)
     }
+
+    /// Six deformations whose squares sum up to that energy.
+    pub fn deformations(&self, e: &Ends, length: f64) -> [f64; 6] {
+        // The two ends bent alike and against each other.
+        let bending = |b: &Bending, [a, c]: [f64; 2]| {
+            let of = |stiffness: f64, turn: f64| (0.5 * stiffness.max(0.0)).sqrt() * turn;
+            [of(b.near + b.far, a + c), of(b.near - b.far, a - c)]
+        };
+        let (xy, xz) = turns_of_ends(e, length);
+        let ([a, b], [c, d]) = (bending(&self.xy, xy), bending(&self.xz, xz));
+        [self.axial.sqrt() * e.shift.x, self.torsion.sqrt() * (e.r1.x - e.r2.x), a, b, c, d]
+    }
+}
+
+/// How far both ends are turned from the chord, in the x–y and the x–z plane.
+fn turns_of_ends(e: &Ends, length: f64) -> ([f64; 2], [f64; 2]) {
+    // The chord turns by (v2 − v1)/L about z and −(w2 − w1)/L about y.
+    let about_z = -e.shift.y / length;
+    let about_y = e.shift.z / length;
+    ([e.r1.z - about_z, e.r2.z - about_z], [e.r1.y - about_y, e.r2.y - about_y])
 }
 
 /// End forces of the geometric stiffness for `tension` N; the same in local and in global axes.
@@ -313,6 +328,8 @@ mod tests {
         let f = k.apply_local(&e);
         let work = f.force.dot(&e.shift) + f.m1.dot(&e.r1) + f.m2.dot(&e.r2);
         assert!((k.twice_energy(&e, axes.length) / work - 1.0).abs() < 1e-12);
+        let squares: f64 = k.deformations(&e, axes.length).iter().map(|d| d * d).sum();
+        assert!((squares / work - 1.0).abs() < 1e-12);
     }
 
     #[test]

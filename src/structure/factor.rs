@@ -113,11 +113,6 @@ impl Factor {
         triangular::solve(system.symbolic(), &self.values, rhs, &mut self.room);
     }
 
-    /// Calls `f(unknown, pivot)` with the squared diagonal entry of L for each unknown.
-    pub fn pivots(&self, system: &System, mut f: impl FnMut(usize, f64)) {
-        self.diagonal(system, |unknown, entry| f(unknown, entry * entry));
-    }
-
     /// Calls `f(unknown, entry)` with the diagonal entries of the supernodes.
     fn diagonal(&self, system: &System, mut f: impl FnMut(usize, f64)) {
         let symbolic = system.symbolic();

@@ -6,7 +6,7 @@ use super::model::{
     FrameModel, FrameParts, LoadCase, Material, Member, ModelError, NodalLoad, Support, UniformLoad,
 };
 use super::section::{Section, SectionError};
-use crate::json::{self, JsonError};
+use crate::json::{self, JsonError, Object};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
@@ -20,8 +20,28 @@ pub enum FileError {
     #[error(transparent)]
     Model(#[from] ModelError),
     /// A section that cannot be.
-    #[error("section: {0}")]
+    #[error(transparent)]
     Section(#[from] SectionError),
+    /// A section without a key of its kind.
+    #[error("section: kind {kind:?} needs the key `{key}`; its keys: {}", .needed.join(", "))]
+    NoKey {
+        /// The kind.
+        kind: &'static str,
+        /// The key.
+        key: &'static str,
+        /// What the kind needs.
+        needed: &'static [&'static str],
+    },
+    /// A section with a key of another kind.
+    #[error("section: kind {kind:?} has no key `{key}`; its keys: {}", .needed.join(", "))]
+    KeyOfOther {
+        /// The kind.
+        kind: &'static str,
+        /// The key.
+        key: &'static str,
+        /// What the kind needs.
+        needed: &'static [&'static str],
+    },
     /// An analysis that does not exist.
     #[error("analysis.order = {0}: must be 1 or 2")]
     Order(u64),
@@ -36,18 +56,18 @@ const MOST_MODES: u32 = 1000;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "an object with the keys material, section, nodes and members")]
 struct File {
-    material: FileMaterial,
-    section: FileSection,
+    material: Object<FileMaterial>,
+    section: Object<FileSection>,
     #[serde(default)]
     shear_deformation: bool,
     nodes: Vec<[f64; 3]>,
-    members: Vec<FileMember>,
+    members: Vec<Object<FileMember>>,
     #[serde(default)]
-    supports: Vec<FileSupport>,
+    supports: Vec<Object<FileSupport>>,
     #[serde(default)]
-    loads: FileLoads,
+    loads: Object<FileLoads>,
     #[serde(default)]
-    analysis: FileAnalysis,
+    analysis: Object<FileAnalysis>,
     // For people, and for tests: not read.
     #[serde(default, rename = "name")]
     _name: IgnoredAny,
@@ -74,31 +94,108 @@ struct FileMaterial {
     fy: f64,
 }
 
-#[derive(Deserialize)]
-#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
-enum FileSection {
-    Properties(Properties),
-    Box { width: f64, height: f64, thickness: f64 },
-    Round { diameter: f64 },
-    Tube { diameter: f64, thickness: f64 },
-}
-
+/// The keys of all kinds; which of them a kind has is for [`FileSection::section`].
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 #[expect(non_snake_case, reason = "the names of the file format, which are the engineer's symbols")]
-struct Properties {
-    A: f64,
-    Iy: f64,
-    Iz: f64,
-    J: f64,
-    #[serde(default)]
-    Wy: f64,
-    #[serde(default)]
-    Wz: f64,
-    #[serde(default)]
-    Asy: f64,
-    #[serde(default)]
-    Asz: f64,
+struct FileSection {
+    kind: Kind,
+    #[serde(default, deserialize_with = "given")]
+    width: Option<f64>,
+    #[serde(default, deserialize_with = "given")]
+    height: Option<f64>,
+    #[serde(default, deserialize_with = "given")]
+    thickness: Option<f64>,
+    #[serde(default, deserialize_with = "given")]
+    diameter: Option<f64>,
+    #[serde(default, deserialize_with = "given")]
+    A: Option<f64>,
+    #[serde(default, deserialize_with = "given")]
+    Iy: Option<f64>,
+    #[serde(default, deserialize_with = "given")]
+    Iz: Option<f64>,
+    #[serde(default, deserialize_with = "given")]
+    J: Option<f64>,
+    #[serde(default, deserialize_with = "given")]
+    Wy: Option<f64>,
+    #[serde(default, deserialize_with = "given")]
+    Wz: Option<f64>,
+    #[serde(default, deserialize_with = "given")]
+    Asy: Option<f64>,
+    #[serde(default, deserialize_with = "given")]
+    Asz: Option<f64>,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Kind {
+    Properties,
+    Box,
+    Round,
+    Tube,
+}
+
+impl Kind {
+    /// Its name, the keys it needs and those it may have.
+    fn keys(self) -> (&'static str, &'static [&'static str], &'static [&'static str]) {
+        match self {
+            Self::Properties => ("properties", &["A", "Iy", "Iz", "J"], &["Wy", "Wz", "Asy", "Asz"]),
+            Self::Box => ("box", &["width", "height", "thickness"], &[]),
+            Self::Round => ("round", &["diameter"], &[]),
+            Self::Tube => ("tube", &["diameter", "thickness"], &[]),
+        }
+    }
+}
+
+/// A number that is there; `null` is none.
+fn given<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
+    f64::deserialize(deserializer).map(Some)
+}
+
+impl FileSection {
+    /// The section, if its kind has the keys that are given and no others.
+    fn section(&self) -> Result<Section, FileError> {
+        let (kind, needed, optional) = self.kind.keys();
+        let all = [
+            ("width", self.width),
+            ("height", self.height),
+            ("thickness", self.thickness),
+            ("diameter", self.diameter),
+            ("A", self.A),
+            ("Iy", self.Iy),
+            ("Iz", self.Iz),
+            ("J", self.J),
+            ("Wy", self.Wy),
+            ("Wz", self.Wz),
+            ("Asy", self.Asy),
+            ("Asz", self.Asz),
+        ];
+        for (key, value) in all {
+            if value.is_none() && needed.contains(&key) {
+                return Err(FileError::NoKey { kind, key, needed });
+            }
+            if value.is_some() && !needed.contains(&key) && !optional.contains(&key) {
+                return Err(FileError::KeyOfOther { kind, key, needed });
+            }
+        }
+        let of = |value: Option<f64>| value.unwrap_or(0.0);
+        Ok(match self.kind {
+            Kind::Box => Section::rectangular_hollow(of(self.width), of(self.height), of(self.thickness))?,
+            Kind::Round => Section::round(of(self.diameter))?,
+            Kind::Tube => Section::tube(of(self.diameter), of(self.thickness))?,
+            Kind::Properties => Section {
+                area: of(self.A),
+                iy: of(self.Iy),
+                iz: of(self.Iz),
+                j: of(self.J),
+                wy: of(self.Wy),
+                wz: of(self.Wz),
+                asy: of(self.Asy),
+                asz: of(self.Asz),
+                shear: None,
+            },
+        })
+    }
 }
 
 #[derive(Deserialize)]
@@ -123,8 +220,8 @@ struct FileSupport {
     expecting = "an object with the keys nodal, member_uniform and gravity, or some of them"
 )]
 struct FileLoads {
-    nodal: Vec<FileNodal>,
-    member_uniform: Vec<FileUniform>,
+    nodal: Vec<Object<FileNodal>>,
+    member_uniform: Vec<Object<FileUniform>>,
     gravity: f64,
 }
 
@@ -163,65 +260,49 @@ impl Default for FileAnalysis {
 /// # Errors
 /// See [`FileError`].
 pub fn read(text: &str) -> Result<(FrameModel, FrameAnalysis), FileError> {
-    let file: File = json::read(text)?;
-    let order = match file.analysis.order {
+    let Object(file): Object<File> = json::read(text)?;
+    let Object(asked) = &file.analysis;
+    let order = match asked.order {
         1 => Order::First,
         2 => Order::Second,
         other => return Err(FileError::Order(other)),
     };
-    if file.analysis.buckling_modes > MOST_MODES {
-        return Err(FileError::Modes(file.analysis.buckling_modes));
+    if asked.buckling_modes > MOST_MODES {
+        return Err(FileError::Modes(asked.buckling_modes));
     }
-    let analysis = FrameAnalysis { order, buckling_modes: file.analysis.buckling_modes as usize };
+    let analysis = FrameAnalysis { order, buckling_modes: asked.buckling_modes as usize };
     Ok((model(file)?, analysis))
 }
 
 fn model(file: File) -> Result<FrameModel, FileError> {
-    let section = match file.section {
-        FileSection::Box { width, height, thickness } => {
-            Section::rectangular_hollow(width, height, thickness)?
-        }
-        FileSection::Round { diameter } => Section::round(diameter)?,
-        FileSection::Tube { diameter, thickness } => Section::tube(diameter, thickness)?,
-        FileSection::Properties(p) => Section {
-            area: p.A,
-            iy: p.Iy,
-            iz: p.Iz,
-            j: p.J,
-            wy: p.Wy,
-            wz: p.Wz,
-            asy: p.Asy,
-            asz: p.Asz,
-            shear: None,
-        },
-    };
+    let section = file.section.0.section()?;
     section.check()?;
-    let nodal = |l: &FileNodal| {
+    let loads = file.loads.0;
+    let nodal = |Object(l): &Object<FileNodal>| {
         let ([fx, fy, fz], [mx, my, mz]) = (l.force, l.moment);
         NodalLoad { node: l.node, load: [fx, fy, fz, mx, my, mz] }
     };
     let loads = LoadCase {
-        nodal: file.loads.nodal.iter().map(nodal).collect(),
-        uniform: file
-            .loads
+        nodal: loads.nodal.iter().map(nodal).collect(),
+        uniform: loads
             .member_uniform
             .iter()
-            .map(|l| UniformLoad { member: l.member, force_per_length: l.force_per_length })
+            .map(|Object(l)| UniformLoad { member: l.member, force_per_length: l.force_per_length })
             .collect(),
-        gravity: file.loads.gravity,
+        gravity: loads.gravity,
     };
-    let m = &file.material;
+    let Object(m) = &file.material;
     Ok(FrameModel::new(FrameParts {
         nodes: file.nodes,
         members: file
             .members
             .iter()
-            .map(|m| Member { start: m.start, end: m.end, up: m.up, section: 0 })
+            .map(|Object(m)| Member { start: m.start, end: m.end, up: m.up, section: 0 })
             .collect(),
         sections: vec![section],
         material: Material { youngs_modulus: m.e, shear_modulus: m.g, density: m.density, strength: m.fy },
         shear_deformation: file.shear_deformation,
-        supports: file.supports.iter().map(|s| Support { node: s.node, fixed: s.fixed }).collect(),
+        supports: file.supports.iter().map(|Object(s)| Support { node: s.node, fixed: s.fixed }).collect(),
         load_cases: vec![loads],
     })?)
 }
@@ -307,8 +388,8 @@ pub fn answer(result: &FrameResult) -> serde_json::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// The JSON of a model that is refused: `error` is `refused`.
-pub fn refusal(error: &FileError) -> serde_json::Value {
+/// The JSON of a model, or a file, that is refused: `error` is `refused`.
+pub fn refusal(error: &impl std::fmt::Display) -> serde_json::Value {
     serde_json::json!({ "error": "refused", "message": error.to_string() })
 }
 
@@ -319,7 +400,10 @@ pub fn failure(error: &FrameError) -> serde_json::Value {
         FrameError::Singular(motion) => ("singular", Some(motion)),
         FrameError::Unstable(motion) => ("unstable", Some(motion)),
         FrameError::NotFinite => ("not finite", None),
-        FrameError::IllConditioned(_) | FrameError::NoDigits => ("ill-conditioned", None),
+        FrameError::IllConditioned(_)
+        | FrameError::Inexact(_)
+        | FrameError::InexactFactors(_)
+        | FrameError::NoDigits => ("ill-conditioned", None),
         FrameError::NotSettled { .. } | FrameError::NoConvergence => ("not converged", None),
         FrameError::TooLarge(_) | FrameError::NoSuchCase { .. } => ("failed", None),
     };

@@ -5,7 +5,7 @@ use super::forces::{MemberForces, Utilisation};
 use super::mechanism::{self, FreeMotion};
 use super::model::{FrameModel, MemberId, NodeId};
 use super::second_order::{LeastStep, Lost, Reason};
-use super::solver::{Combination, Refined, Solver, Unsound};
+use super::solver::{Combination, Refined, Rounding, Solver, Unsound};
 use super::system::{DOFS, System, TooLarge};
 use nalgebra::Vector3;
 
@@ -35,6 +35,12 @@ const LEAST_STEP: LeastStep = LeastStep(1.0 / 4096.0);
 
 /// Residual of a mode that is only to name what gives way.
 pub const NAMING: f64 = 1e-4;
+
+/// Displacements are known no better than this, in the norm of strain energy beside the whole, an answer is none.
+const EXACT: f64 = 1e-6;
+
+/// Rounding that changes solutions by more than this share leaves nothing for second order to settle on.
+const CORRECTABLE: f64 = 1e-3;
 
 /// Out of balance by more than this share of the largest force, an answer is none.
 const BALANCE: f64 = 1e-6;
@@ -68,6 +74,10 @@ pub struct FrameResult {
 const NO_LATERAL: &str = "bending dominates and no buckling factor of the axial forces was found: lateral-torsional \
     buckling, that of bending moments, is outside the model";
 
+/// Said where fewer factors were found than asked for.
+const NO_MORE: &str =
+    "fewer buckling factors than asked for: there are no others below 1e8 times the least, of either sign";
+
 /// Why there is no answer.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FrameError {
@@ -75,10 +85,14 @@ pub enum FrameError {
     #[error("mechanism: {} moves freely in {:?}", .0.node, .0.direction)]
     Singular(FreeMotion),
     /// Past its critical load in second order.
-    #[error("unstable: past its critical load; {} gives way in {:?}", .0.node, .0.direction)]
+    #[error("unstable: the path of equilibrium from no load ends before the whole load is on; {} gives way in {:?}", .0.node, .0.direction)]
     Unstable(FreeMotion),
     /// Neither an equilibrium in second order nor a reason to call it unstable was found.
-    #[error("the second-order iteration did not converge beyond {:.3} of the load (the structure is not known to be unstable)", .share)]
+    #[error(
+        "the second-order iteration did not converge: no equilibrium was found beyond {:.3} of the load, and nothing \
+         shows that there is none; the structure may be past its critical load or near it",
+        .share
+    )]
     NotSettled {
         /// The share of the load up to which there is an answer.
         share: f64,
@@ -91,9 +105,22 @@ pub enum FrameError {
         "ill-conditioned: the free nodes are out of balance by {0:e} of the largest force; stiffness or lengths differ too much"
     )]
     IllConditioned(f64),
+    /// The nodes are in balance, but the displacements are not known.
+    #[error(
+        "ill-conditioned: rounding leaves an error of about {0:.0e} of the displacements (1e-6 is allowed); stiffness or \
+         lengths differ too much, or members are split too finely: an element is exact for a straight member under \
+         uniform load, so that fewer elements give the better answer"
+    )]
+    Inexact(f64),
     /// The same, so much that there is no factor of the stiffness.
     #[error("ill-conditioned: rounding makes the stiffness singular; stiffness or lengths differ too much")]
     NoDigits,
+    /// Buckling factors that rounding may have changed.
+    #[error(
+        "ill-conditioned: rounding changes solutions by {0:.0e}, so that the buckling factors cannot be certified; \
+         stiffness or lengths differ too much, or members are split too finely: take fewer elements"
+    )]
+    InexactFactors(f64),
     /// No buckling factor could be told.
     #[error("the buckling factors cannot be told: the pivots of K + λ Kg are not numbers")]
     NoConvergence,
@@ -120,9 +147,12 @@ impl From<Unsound> for FrameError {
     }
 }
 
-impl From<buckling::NoConvergence> for FrameError {
-    fn from(_: buckling::NoConvergence) -> Self {
-        Self::NoConvergence
+impl From<buckling::NoFactors> for FrameError {
+    fn from(reason: buckling::NoFactors) -> Self {
+        match reason {
+            buckling::NoFactors::NoConvergence => Self::NoConvergence,
+            buckling::NoFactors::IllConditioned(error) => Self::InexactFactors(error),
+        }
     }
 }
 
@@ -154,19 +184,25 @@ pub fn combined(
     solver.member_loads(combination, &mut loads);
     let mut f = vec![0.0; solver.system().unknowns()];
     solver.load_vector(combination, &loads, &mut f);
-    let first = solver.first_order(&f);
+    let (first, rounding) = solver.first_order(&f);
     finite(&first.u)?;
+    exact(rounding.error)?;
     balanced(solver.imbalance(&first, None, &f))?;
     let mut axial = Vec::new();
     solver.axial_forces_of(&first, &mut axial);
-    silence(&solver, &first.u, &mut axial);
+    silence_refined(&solver, &first.u, rounding, &mut axial);
     let buckling_factors = buckling::factors(&mut solver, &axial, analysis.buckling_modes)?;
     let result = if analysis.order == Order::Second {
+        if rounding.uncorrected > CORRECTABLE {
+            return Err(FrameError::Inexact(rounding.uncorrected));
+        }
         let u = solver
             .second_order(&f, &axial, SECOND_ORDER_TOLERANCE, LEAST_STEP)
             .map_err(|lost| unstable(&mut solver, &first.u, &axial, lost))?;
         finite(&u.u)?;
         solver.axial_forces_of(&u, &mut axial);
+        // The factor is that of K + Kg at the answer, which has proved it stable.
+        exact(solver.error_of(&u, Some(&axial), &f))?;
         balanced(solver.imbalance(&u, Some(&axial), &f))?;
         collect(&solver, &u, Some(&axial), &loads, &f)
     } else {
@@ -184,6 +220,10 @@ fn finite(u: &[f64]) -> Result<(), FrameError> {
     if u.iter().all(|v| v.is_finite()) { Ok(()) } else { Err(FrameError::NotFinite) }
 }
 
+fn exact(error: f64) -> Result<(), FrameError> {
+    if error <= EXACT { Ok(()) } else { Err(FrameError::Inexact(error)) }
+}
+
 fn balanced(imbalance: f64) -> Result<(), FrameError> {
     if imbalance <= BALANCE { Ok(()) } else { Err(FrameError::IllConditioned(imbalance)) }
 }
@@ -199,6 +239,20 @@ pub fn silence(solver: &Solver<'_>, u: &[f64], axial: &mut [f64]) {
         let by_turning = k.xy.couple + k.xz.couple + k.torsion / axes.length;
         if n.abs() <= 256.0 * f64::EPSILON * (k.axial * moved + by_turning * turned) {
             *n = 0.0;
+        }
+    }
+}
+
+/// The same where displacements are refined and what rounding leaves of them is known: in a floppy frame an N that does
+/// not count beside the displacements may be known all the same, and buckle it.
+fn silence_refined(solver: &Solver<'_>, u: &[f64], rounding: Rounding, axial: &mut [f64]) {
+    let found = axial.to_vec();
+    silence(solver, u, axial);
+    let energy = rounding.error.max(256.0 * f64::EPSILON).powi(2) * solver.twice_energy(u);
+    for ((n, found), k) in axial.iter_mut().zip(found).zip(solver.stiffness()) {
+        // No more of N can be wrong than has the energy of what is left.
+        if found * found > energy * k.axial {
+            *n = found;
         }
     }
 }
@@ -307,8 +361,10 @@ pub fn by_node(system: &System, u: &[f64], nodes: usize) -> Vec<[f64; 6]> {
 impl FrameResult {
     /// What the numbers do not say by themselves.
     pub fn remarks(&self) -> Vec<&'static str> {
-        let silent = self.modes_asked > 0 && self.buckling_factors.is_empty() && self.bending_dominates;
-        if silent { vec![NO_LATERAL] } else { Vec::new() }
+        let found = self.buckling_factors.len();
+        let silent = self.modes_asked > 0 && found == 0 && self.bending_dominates;
+        let remarks = [(NO_LATERAL, silent), (NO_MORE, found > 0 && found < self.modes_asked)];
+        remarks.into_iter().filter_map(|(remark, applies)| applies.then_some(remark)).collect()
     }
 
     /// The largest of a per-member utilisation, and the member it is of; none if no member has one.

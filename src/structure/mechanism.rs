@@ -1,15 +1,16 @@
 //! Finds what moves freely: the node and direction of a mechanism, instead of a huge number.
 //!
-//! A singular K shows as a pivot that is not positive, or tiny beside the diagonal it came from. Both also happen to
-//! sound but very slender models, so the suspicion is tested.
+//! The pivots of a factor do not tell: those of a sound but very slender model may be tiny, and where members are slender
+//! rounding leaves pivots of ε (L/i)² where a mechanism has none.
 //!
 //! Members are joined rigidly. Where each of them resists all that can be done to it, what moves freely can only be a
 //! part of the model that moves as a whole: [`rigid_motion`] compares its six motions with what the supports hold, which
 //! is exact however soft the part is (a chain of n elements has motions n⁴ times softer than its elements, and is sound).
+//! It needs no stiffness and is always asked.
 //!
 //! Members without stiffness in bending or torsion can move freely in other ways. There, inverse iteration with
-//! K + ε diag K (positive definite whatever K is) gives the softest motion v, whose strain energy is then summed from the
-//! deformations of the elements. For a true mechanism that sum is the square of a rounding error.
+//! K + ε D (D: diag K, nowhere nothing; positive definite whatever K is) gives the softest motions; of their
+//! combinations that is taken whose strain energy, summed from the deformations of the elements, is least. For a true mechanism that sum is the square of a rounding error.
 
 use super::element::{Ends, Stiffness};
 use super::factor::Factor;
@@ -17,7 +18,7 @@ use super::model::Direction;
 use super::model::{FrameModel, NodeId};
 use super::system::{DOFS, System};
 use crate::random;
-use nalgebra::{Matrix6, SymmetricEigen, Vector3, Vector6};
+use nalgebra::{DMatrix, Matrix6, SVD, SymmetricEigen, Vector3, Vector6};
 
 /// A motion that meets (next to) no resistance.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,22 +34,16 @@ pub struct FreeMotion {
 const DIRECTIONS: [Direction; 6] =
     [Direction::Ux, Direction::Uy, Direction::Uz, Direction::Rx, Direction::Ry, Direction::Rz];
 
-/// A pivot this small beside its diagonal starts the search.
-const DOUBT: f64 = 1e-9;
 /// The shift ε of the inverse iteration, relative to the diagonal.
 const SHIFT: f64 = 1e-10;
-/// Strain energy relative to Σ diag(K) v² below which a motion counts as free: no digit of a solution would be true.
+/// The least entry of D, beside the stiffest of its kind at the node: where nothing resists, or rounding, the diagonal is
+/// no measure.
+const LEAST: f64 = 1e-8;
+/// How many motions are looked at together, so that the softest is told from the next, and how often they are improved.
+const BLOCK: usize = 8;
+const ITERATIONS: usize = 5;
+/// Strain energy relative to Σ D v² below which a motion counts as free: no digit of a solution would be true.
 const FREE: f64 = 1e-15;
-
-/// Whether a pivot of the factor is so small that the matrix may be singular.
-pub fn suspicious(system: &System, matrix: &[f64], factor: &Factor) -> bool {
-    let mut doubt = false;
-    factor.pivots(system, |unknown, pivot| {
-        let diagonal = matrix[system.diagonal(unknown)];
-        doubt |= pivot.is_nan() || pivot <= DOUBT * diagonal;
-    });
-    doubt
-}
 
 /// Share of the largest below which an eigenvalue of what the supports hold is none: lever arms of 1e-7 of the size.
 const HELD: f64 = 1e-14;
@@ -137,7 +132,7 @@ pub fn free_motion(
     matrix: &[f64],
     factor: &mut Factor,
 ) -> Option<FreeMotion> {
-    let diagonal: Vec<f64> = (0..system.unknowns()).map(|i| matrix[system.diagonal(i)]).collect();
+    let diagonal = weights(model, system, stiffness, matrix);
     let mut shifted = matrix.to_vec();
     for (i, d) in diagonal.iter().enumerate() {
         shifted[system.diagonal(i)] += SHIFT * d;
@@ -146,33 +141,83 @@ pub fn free_motion(
         // Not even with a shift that no rounding reaches: the search is at its end, and says nothing.
         return None;
     }
+    let n = diagonal.len();
+    let free = system.held().iter().filter(|held| !**held).count();
     let mut rng = random::stream(0x6d65_6368, 0, 0);
-    let mut v: Vec<f64> = diagonal.iter().map(|d| (random::unit(&mut rng) - 0.5) / d.sqrt()).collect();
-    for _ in 0..4 {
-        // b = D v, v = (K + εD)⁻¹ b.
-        for (v, d) in v.iter_mut().zip(&diagonal) {
-            *v *= d;
-        }
-        system.hold_vector(&mut v);
-        factor.solve(system, &mut v);
-        let norm = weight(&v, &diagonal).sqrt();
-        v.iter_mut().for_each(|v| *v /= norm);
-    }
-    let energy: f64 = model
-        .axes()
-        .iter()
-        .zip(system.slots())
-        .zip(stiffness)
-        .map(|((axes, slot), k)| {
-            k.twice_energy(&Ends::read(&v, slot.start, slot.end).local(axes), axes.length)
+    let mut block: Vec<f64> = (0..BLOCK.min(free))
+        .flat_map(|_| {
+            diagonal.iter().map(|d| (random::unit(&mut rng) - 0.5) / d.sqrt()).collect::<Vec<f64>>()
         })
-        .sum();
+        .collect();
+    for _ in 0..ITERATIONS {
+        // b = D v, v = (K + εD)⁻¹ b.
+        for v in block.chunks_mut(n) {
+            v.iter_mut().zip(&diagonal).for_each(|(v, d)| *v *= d);
+            system.hold_vector(v);
+        }
+        factor.solve(system, &mut block);
+        orthonormalise(&mut block, &diagonal);
+    }
+    // Of their combinations, the one that deforms the elements least.
+    let mut deformed = DMatrix::zeros(DOFS * stiffness.len(), block.len() / n);
+    for (column, v) in block.chunks(n).enumerate() {
+        for (m, ((axes, slot), k)) in model.axes().iter().zip(system.slots()).zip(stiffness).enumerate() {
+            let ends = Ends::read(v, slot.start, slot.end).local(axes);
+            for (row, d) in k.deformations(&ends, axes.length).into_iter().enumerate() {
+                deformed[(DOFS * m + row, column)] = d;
+            }
+        }
+    }
+    let parts = SVD::try_new(deformed.qr().r(), false, true, f64::EPSILON, 10_000)?;
+    let shares = parts.v_t?;
+    let (least, stretch) = parts.singular_values.argmin();
     // Not `<`, so that a NaN counts as free.
-    if energy > FREE * weight(&v, &diagonal) { None } else { Some(largest(model, system, &v)) }
+    if stretch * stretch > FREE {
+        return None;
+    }
+    let mut v = vec![0.0; n];
+    for (part, share) in block.chunks(n).zip(shares.row(least).iter()) {
+        v.iter_mut().zip(part).for_each(|(v, part)| *v += share * part);
+    }
+    Some(largest(model, system, &v))
 }
 
-fn weight(v: &[f64], diagonal: &[f64]) -> f64 {
-    v.iter().zip(diagonal).map(|(v, d)| v * v * d).sum()
+/// Makes the vectors orthonormal in the inner product of D.
+fn orthonormalise(block: &mut [f64], diagonal: &[f64]) {
+    let n = diagonal.len();
+    let product =
+        |v: &[f64], w: &[f64]| -> f64 { v.iter().zip(w).zip(diagonal).map(|((v, w), d)| v * w * d).sum() };
+    for i in 0..block.len() / n {
+        let (before, rest) = block.split_at_mut(i * n);
+        let v = &mut rest[..n];
+        // Twice: what is left of much is not yet orthogonal.
+        for w in before.chunks(n).chain(before.chunks(n)) {
+            let share = product(v, w);
+            v.iter_mut().zip(w).for_each(|(v, w)| *v -= share * w);
+        }
+        let norm = product(v, v).sqrt();
+        v.iter_mut().for_each(|v| *v /= norm);
+    }
+}
+
+/// D: the diagonal of K, but no less than a share of what its node has at most in displacement, or in rotation; there
+/// the stiffest member counts as if it were fixed to its far end by a lever of its length.
+fn weights(model: &FrameModel, system: &System, stiffness: &[Stiffness], matrix: &[f64]) -> Vec<f64> {
+    let mut weights: Vec<f64> = (0..system.unknowns()).map(|i| matrix[system.diagonal(i)]).collect();
+    let mut levers = vec![0.0f64; system.unknowns() / DOFS];
+    for ((axes, slot), k) in model.axes().iter().zip(system.slots()).zip(stiffness) {
+        for node in [slot.start / DOFS, slot.end / DOFS] {
+            levers[node] = levers[node].max(k.axial * axes.length * axes.length);
+        }
+    }
+    for (node, lever) in weights.chunks_mut(DOFS).zip(levers) {
+        let (shifts, turns) = node.split_at_mut(DOFS / 2);
+        for (kind, lever) in [(shifts, 0.0), (turns, LEAST * lever)] {
+            let least = LEAST * kind.iter().fold(lever, |a: f64, w| a.max(*w));
+            kind.iter_mut().for_each(|w| *w = w.max(least));
+        }
+    }
+    weights
 }
 
 /// Names the node of a motion: where it moves most; where it only turns, where it turns most.

@@ -11,8 +11,14 @@
 //!
 //! That an iteration settles does not prove that K + Kg is positive definite: motions that the load does not excite
 //! are not seen. Whether it is, is for a Cholesky factorisation of K + Kg at the settled N to tell.
+//!
+//! Nor does a definite K + Kg prove that the state lies on the path from nothing: N is that of u, so that the tangent is
+//! K + Kg(N(u)) + Kg(N(·)) u = (K + Kg) (1 − J), and beyond a limit point, on the way back of a shallow arch, J has a
+//! real eigenvalue above 1 though K + Kg is definite. The largest is found by Arnoldi's method with the factor at hand. A
+//! state at which it is small is taken at once; where it is not, the load is followed to it.
 
 use super::solver::{Refined, Solver};
+use crate::random;
 use nalgebra::{DMatrix, DVector};
 
 /// Why there is no answer in second order.
@@ -44,6 +50,8 @@ pub struct LeastStep(pub f64);
 /// many times faster than at first, for the structure to be called unstable.
 const BEYOND: f64 = 4.0;
 const FASTER: f64 = 8.0;
+/// Or the largest real eigenvalue of J must be beyond this.
+const LIMIT: f64 = 0.8;
 /// Factorisations for one equilibrium: of the whole load at once, and of a step.
 const MOST_AT_ONCE: usize = 100;
 const MOST_IN_STEP: usize = 40;
@@ -62,10 +70,24 @@ const ENERGY: f64 = 1e-10;
 /// A change that shrinks less than this shrinks no more.
 const SHRINKS: f64 = 0.5;
 
+/// The largest real eigenvalue of J up to which the whole load is put on at once, and by how much it may grow in a step.
+const MILD: f64 = 0.5;
+const GROWS: f64 = 0.25;
+/// Steps of Arnoldi's method, and the change of the eigenvalue, beside it or beside 1, at which it ends.
+const KRYLOV: usize = 40;
+const RITZ: f64 = 1e-3;
+/// Steps before which that is no sign, and the imaginary part beside the whole that is rounding.
+const LEAST_KRYLOV: usize = 10;
+const REAL: f64 = 1e-6;
+/// Displacements that differ by less than this share, in the norm of strain energy, are those of one state.
+const SAME_STATE: f64 = 1e-6;
+
 /// A state of equilibrium.
 struct State {
     found: Refined,
     axial: Vec<f64>,
+    /// The largest real eigenvalue of J there, at least 0: 1 at a limit point.
+    feedback: f64,
 }
 
 /// Steps of the iteration with one factor; those that shrink the change so slowly that it would not do leave
@@ -190,10 +212,60 @@ impl Solver<'_> {
         tolerance: f64,
         least: LeastStep,
     ) -> Result<Refined, Lost> {
-        match self.equilibrium(f, first.to_vec(), tolerance, MOST_AT_ONCE) {
-            Ok(state) => Ok(state.found),
-            Err(_) => self.follow(f, first, tolerance, least),
+        let at_once = match self.equilibrium(f, first.to_vec(), tolerance, MOST_AT_ONCE) {
+            Ok(state) if state.feedback <= MILD => return Ok(state.found),
+            Ok(state) => Some(state),
+            Err(_) => None,
+        };
+        let followed = self.follow(f, first, tolerance, least)?;
+        Ok(match at_once {
+            // The same state; with its own last digits.
+            Some(state) if self.is_same(&state.found.u, &followed.u, SAME_STATE) => state.found,
+            _ => followed,
+        })
+    }
+
+    /// The largest real eigenvalue of J = −(K + Kg)⁻¹ Kg(N(·)) u, at least 0, with the factor of K + Kg at hand: by
+    /// Arnoldi's method on N, whose norm is that of the strain energy of N.
+    fn feedback(&mut self, u: &[f64]) -> f64 {
+        let weights: Vec<f64> = self.stiffness().iter().map(|k| 1.0 / k.axial.sqrt()).collect();
+        let m = weights.len();
+        let mut rng = random::stream(0x6172_6e6f, 0, 0);
+        let mut next = DVector::from_fn(m, |_, _| random::unit(&mut rng) - 0.5);
+        let (mut axial, mut image) = (Vec::new(), vec![0.0; u.len()]);
+        let mut basis: Vec<DVector<f64>> = Vec::new();
+        let mut h = DMatrix::<f64>::zeros(KRYLOV + 1, KRYLOV);
+        let mut largest = 0.0f64;
+        let mut size = next.norm();
+        for step in 0..KRYLOV.min(m) {
+            basis.push(next / size);
+            axial.clear();
+            axial.extend(basis[step].iter().zip(&weights).map(|(y, w)| y / w));
+            self.minus_geometric(&axial, u, &mut image);
+            self.solve_as_factorised(&mut image);
+            self.axial_forces(&image, &mut axial);
+            next = DVector::from_iterator(m, axial.iter().zip(&weights).map(|(n, w)| n * w));
+            // Twice, so that it stays orthogonal to rounding.
+            for _ in 0..2 {
+                for (i, v) in basis.iter().enumerate() {
+                    let part = v.dot(&next);
+                    h[(i, step)] += part;
+                    next.axpy(-part, v, 1.0);
+                }
+            }
+            size = next.norm();
+            h[(step + 1, step)] = size;
+            if !size.is_finite() {
+                return f64::INFINITY;
+            }
+            let before = largest;
+            largest = largest_real(&h.view((0, 0), (step + 1, step + 1)).into_owned());
+            let settled = (largest - before).abs() <= RITZ * largest.max(1.0);
+            if size <= f64::EPSILON || (settled && step + 1 >= LEAST_KRYLOV) {
+                break;
+            }
         }
+        largest
     }
 
     /// The equilibrium under a load, from a guess of N.
@@ -228,7 +300,12 @@ impl Solver<'_> {
                 let refined = found.plus(&correction);
                 let found =
                     if self.is_same(&refined.u, &found.u, tolerance.max(ENERGY)) { refined } else { found };
-                return Ok(State { found, axial: next });
+                let feedback = self.feedback(&found.u);
+                if feedback >= 1.0 {
+                    // An equilibrium, but beyond a limit point: no load from nothing leads there.
+                    return Err(Reason::PastCritical);
+                }
+                return Ok(State { found, axial: next, feedback });
             }
             mixing.step(&mut axial, &next);
             (before, change_before) = (Some(found.u), change);
@@ -286,12 +363,17 @@ impl Solver<'_> {
         // How N grows with the share: at first as in first order, then as in the step before.
         let mut growth = first.to_vec();
         let mut step = 0.5f64;
+        let mut feedback = 0.0;
         loop {
             let next = (share + step).min(1.0);
             let guess = axial.iter().zip(&growth).map(|(n, g)| n + (next - share) * g).collect();
             let (tolerance, most) =
                 if next == 1.0 { (tolerance, MOST_AT_ONCE) } else { (ON_THE_WAY, MOST_IN_STEP) };
-            match self.equilibrium(&scaled(next, f), guess, tolerance, most) {
+            let state = self.equilibrium(&scaled(next, f), guess, tolerance, most);
+            // What is far from the state before may lie on another path.
+            let jumps = |state: &State| state.feedback > MILD && state.feedback > feedback + GROWS;
+            match state {
+                Ok(state) if jumps(&state) && step > least * share.max(least) => step *= 0.5,
                 Ok(state) if next == 1.0 => return Ok(state.found),
                 Ok(state) => {
                     let taken = next - share;
@@ -300,7 +382,7 @@ impl Solver<'_> {
                     slow = if share == 0.0 { fast } else { slow };
                     u = state.found.u;
                     growth = state.axial.iter().zip(&axial).map(|(n, o)| (n - o) / taken).collect();
-                    (share, axial) = (next, state.axial);
+                    (share, axial, feedback) = (next, state.axial, state.feedback);
                     step = (1.5 * taken).min(1.0 - share);
                 }
                 Err(_) if step > least * share.max(least) => step *= 0.5,
@@ -308,13 +390,22 @@ impl Solver<'_> {
                     // At a limit point they grow without bounds, at a bifurcation K + Kg loses its definiteness.
                     let ahead: Vec<f64> =
                         axial.iter().zip(&growth).map(|(n, g)| n + BEYOND * step * g).collect();
-                    let gives_way = share == 0.0 || fast > FASTER * slow || !self.is_definite(&ahead, 1.0);
+                    let gives_way = share == 0.0
+                        || feedback > LIMIT
+                        || fast > FASTER * slow
+                        || !self.is_definite(&ahead, 1.0);
                     let reason = if gives_way { Reason::PastCritical } else { Reason::NoConvergence };
                     return Err(Lost { reason, share, axial });
                 }
             }
         }
     }
+}
+
+/// The largest real eigenvalue of a small matrix, at least 0.
+fn largest_real(h: &DMatrix<f64>) -> f64 {
+    let values = h.complex_eigenvalues();
+    values.iter().filter(|v| v.im.abs() <= REAL * v.norm()).fold(0.0, |a, v| a.max(v.re))
 }
 
 fn largest_difference(a: &[f64], b: &[f64]) -> f64 {

@@ -4,6 +4,7 @@
 mod cable_net;
 mod cases;
 mod cli;
+mod edges;
 mod faults;
 mod gridshell;
 mod laws;

@@ -181,7 +181,7 @@ fn settles(pattern: &Pattern, params: &StructureParams) -> bool {
     solver.member_loads(&cases, &mut loads);
     let mut f = vec![0.0; solver.system().unknowns()];
     solver.load_vector(&cases, &loads, &mut f);
-    let mut u = solver.first_order(&f).u;
+    let mut u = solver.first_order(&f).0.u;
     let aim = Aim { second_order: true, tolerance: 1e-6 };
     solver.iterate(&f, &mut u, aim, &mut Room::default())
 }

@@ -105,7 +105,7 @@ impl<'a, 'm> Lanczos<'a, 'm> {
             self.solver.system().hold_vector(column);
         }
         let mut z = Columns { n, data: g.data.clone() };
-        self.solver.solve(&mut z.data);
+        self.solver.solve_corrected(&mut z.data, self.search.corrections);
         self.orthogonalise(&mut z, &mut g);
         self.orthogonalise(&mut z, &mut g);
         orthonormalise(&mut z, &mut g);
@@ -140,7 +140,7 @@ impl<'a, 'm> Lanczos<'a, 'm> {
         }
         self.t = t;
         let mut z = Columns { n: g.n, data: g.data.clone() };
-        self.solver.solve(&mut z.data);
+        self.solver.solve_corrected(&mut z.data, self.search.corrections);
         let whole = squares(&z, &g);
         z.subtract(&self.v, from, &column);
         g.subtract(&self.w, from, &column);

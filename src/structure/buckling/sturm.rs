@@ -130,6 +130,12 @@ fn least(solver: &mut Solver<'_>, axial: &[f64], hints: &[f64]) -> f64 {
     if let Some(first) = hints.first() {
         return *first;
     }
+    let (_, growth) = most_bent(solver, axial);
+    if growth > 0.0 && growth.is_finite() { 1.0 / growth } else { 1.0 }
+}
+
+/// A few steps of the power method with K⁻¹ Kg: the shape, and how much the last step made it grow.
+pub fn most_bent(solver: &mut Solver<'_>, axial: &[f64]) -> (Vec<f64>, f64) {
     let mut rng = random::stream(0x7374_7572, 1, 0);
     let n = solver.system().unknowns();
     let mut v: Vec<f64> = (0..n).map(|_| random::unit(&mut rng) - 0.5).collect();
@@ -144,5 +150,5 @@ fn least(solver: &mut Solver<'_>, axial: &[f64], hints: &[f64]) -> f64 {
         growth = image.iter().fold(0.0f64, |a, v| a.max(v.abs()));
         std::mem::swap(&mut v, &mut image);
     }
-    if growth > 0.0 && growth.is_finite() { 1.0 / growth } else { 1.0 }
+    (v, growth)
 }
