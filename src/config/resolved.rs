@@ -4,6 +4,7 @@ use super::error::Problem;
 use super::{Config, KeyPath, names, schema, seeds};
 use crate::geometry::params::{FREE_SWEEPS, RelaxKind};
 use crate::io::{Inputs, sha256};
+use crate::search::params::Initialiser;
 use crate::structure::params::{HeightParams, SectionParams, StructureParams};
 use crate::surface::params::SurfaceParams;
 use std::path::{Path, PathBuf};
@@ -33,6 +34,10 @@ pub(super) fn fill_in(config: &mut Config, given: &Table) {
             names::WITHOUT_STRUCTURE.as_slice()
         };
         config.objectives.minimise = names.iter().map(|&name| name.to_owned()).collect();
+    }
+    let initial = given.get("search").and_then(|search| search.get("initial"));
+    if initial.and_then(|initial| initial.get("kind")).is_none() {
+        config.search.initial.kind = Initialiser::of(config.objectives.minimise.len());
     }
 }
 

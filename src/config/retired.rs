@@ -55,11 +55,12 @@ mod tests {
 
     #[test]
     fn what_runs_of_before_recorded_is_read() {
-        let ci = include_str!("../../configs/ci.toml");
+        let ci =
+            include_str!("../../configs/ci.toml").replace("initial = { kind = \"near\", near = 36 }\n", "");
         let before = "screen = 1\n[search.initial]\nkind = \"uniform\"\nseeds = [\"\"]\n[search.rules]\nappend_strip = 0.3\n";
         let text = format!("{ci}\n{before}");
         assert!(toml::from_str::<Config>(&text).is_err());
-        assert_eq!(recorded(&text).unwrap(), toml::from_str::<Config>(ci).unwrap());
+        assert_eq!(recorded(&text).unwrap(), toml::from_str::<Config>(&ci).unwrap());
         assert!(recorded("version = 1\nnonsense = 2").is_err());
     }
 }

@@ -90,7 +90,7 @@ mod tests {
         let text =
             String::from_utf8(generations(std::slice::from_ref(&row), &["mass_kg".into()]).to_csv()).unwrap();
         assert!(text.lines().next().unwrap().ends_with("empty_slots,best_mass_kg,mean_mass_kg"), "{text}");
-        assert_eq!(text.lines().nth(1).unwrap(), "0,48,0,3,0,,60,12,0,0,0,0,0,0,1.5,");
+        assert_eq!(text.lines().nth(1).unwrap(), "0,48,0,3,0,,60,12,0,0,0,0,0,1.5,");
         let text = String::from_utf8(operators(&[row]).to_csv()).unwrap();
         assert_eq!(text, "generation,operator,used,evaluated,survived,entered_front\n0,random,5,4,2,1\n");
     }

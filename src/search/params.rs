@@ -94,7 +94,7 @@ impl Default for SearchParams {
     fn default() -> Self {
         Self {
             population: 16,
-            generations: 45,
+            generations: 60,
             evaluations: None,
             minutes: None,
             stall_generations: None,
@@ -149,7 +149,7 @@ impl Default for TokenBounds {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct InitialParams {
-    /// Where they come from.
+    /// Where they come from. With more than four objectives the default is `aware` (docs/search.md).
     pub kind: Initialiser,
     /// How many designs near the initial mesh are looked at first, where `kind` is `near` and there are so many: a good part of the whole
     /// budget.
@@ -196,6 +196,13 @@ pub enum Initialiser {
     Near,
     /// Random strings that follow the decoding, and close a pair only where that is applicable.
     Aware,
+}
+
+impl Initialiser {
+    /// What is taken with this number of objectives where a config does not say.
+    pub fn of(objectives: usize) -> Self {
+        if objectives > MANY { Self::Aware } else { Self::Near }
+    }
 }
 
 /// Which designs of the last front that survives stay: whole fronts before it always do.

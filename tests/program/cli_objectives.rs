@@ -60,8 +60,8 @@ fn constant_and_dependent_objectives_are_warned_of_after_the_first_generation() 
     // One section for all: the mass is that of the length.
     let told = run("[\"mass\", \"curvature\", \"member_length\", \"height\"]");
     assert_eq!(told.matches("warning: objective").count(), 2, "{told}");
-    assert!(told.contains("objectives \"mass\" and \"member_length\" put all 12 designs"), "{told}");
-    assert!(told.contains("objective \"height\" is 0.2 for all 12 designs"), "{told}");
+    assert!(told.contains("objectives \"mass\" and \"member_length\" put all 36 designs"), "{told}");
+    assert!(told.contains("objective \"height\" is 0.2 for all 36 designs"), "{told}");
     let told = run("[\"deflection\", \"curvature\", \"edge_spread\"]");
     assert!(!told.contains("warning"), "{told}");
 }

@@ -27,6 +27,8 @@ fn manifest() -> String {
         "minimise = [\"deflection\", \"curvature\", \"edge_spread\"]",
         "minimise = [\"mass\", \"edge_spread\"]",
     );
+    let config = config.replace("ideal = [0.0, 0.0, 0.0]", "ideal = [0.0, 0.0]");
+    let config = config.replace("reference = [0.15, 0.02, 1.5]", "reference = [1e4, 1.5]");
     serde_json::json!({
         "manifest_version": 1, "program": "quadrille", "program_version": "0.1.0", "name": "tripod",
         "objectives": ["mass_kg", "edge_spread_m"], "seed": u64::MAX, "threads": 2, "status": "finished",
