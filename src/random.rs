@@ -51,6 +51,17 @@ pub fn chance(rng: &mut Rng, p: f64) -> bool {
     unit(rng) < p
 }
 
+/// One of the choices, each as likely as its weight among all of them; `None` of none. Weights are not below 0.
+pub fn weighted<T: Copy>(rng: &mut Rng, choices: &[(T, f64)]) -> Option<T> {
+    let (last, _) = choices.last()?;
+    let mut drawn = unit(rng) * choices.iter().map(|(_, weight)| weight).sum::<f64>();
+    let found = choices.iter().find(|(_, weight)| {
+        drawn -= weight;
+        drawn < 0.0
+    });
+    Some(found.map_or(*last, |(choice, _)| *choice))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -66,6 +77,17 @@ mod tests {
         };
         assert_eq!(drawn, again);
         assert!((0.0..1.0).contains(&unit(&mut rng)));
+    }
+
+    #[test]
+    fn choices_come_by_their_weights() {
+        let mut rng = stream(7, 0, 1);
+        let mut counts = [0usize; 3];
+        for _ in 0..40_000 {
+            counts[weighted(&mut rng, &[(0, 3.0), (1, 0.0), (2, 1.0)]).unwrap()] += 1;
+        }
+        assert!((29_500..30_500).contains(&counts[0]) && counts[1] == 0, "{counts:?}");
+        assert_eq!(weighted::<u8>(&mut rng, &[]), None);
     }
 
     #[test]

@@ -42,7 +42,6 @@ pub use console::{Console, ConsoleArgs};
 pub use error::CliError;
 
 use clap::{FromArgMatches, Parser, Subcommand};
-use std::io::{self, Write};
 use std::process::ExitCode;
 
 /// Finds good topologies for structured surface structures: gridshells, shells, cable nets.
@@ -79,24 +78,17 @@ enum Command {
     Man(man::Args),
 }
 
-/// Prints the help or the version that was asked for.
-fn shown(asked: &clap::Error) -> ExitCode {
-    match asked.print().and_then(|()| io::stdout().flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            eprintln!("error: {}", CliError::write("stdout")(error));
-            ExitCode::from(exit::FAILED)
-        }
-        _ => ExitCode::SUCCESS,
-    }
-}
-
 /// Runs the program and gives its exit code.
 pub fn main() -> ExitCode {
     let parsed = help::command::<Cli>().try_get_matches().and_then(|matches| Cli::from_arg_matches(&matches));
     let Cli { console, command } = match parsed {
         Ok(cli) => cli,
         // Help and version are results too, and not to be lost on a full disk.
-        Err(asked) if !asked.use_stderr() => return shown(&asked),
+        Err(asked) if !asked.use_stderr() => {
+            let Err(error) = stdout::written(asked.print()) else { return ExitCode::SUCCESS };
+            eprintln!("error: {error}");
+            return error.exit_code();
+        }
         Err(error) => error.exit(),
     };
     let console = Console::new(&console);

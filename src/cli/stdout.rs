@@ -25,8 +25,12 @@ pub fn put(text: Arguments<'_>) {
 
 /// Prints a result as it is. A reader that went away (`| head`) is no failure.
 pub fn print_result(text: impl AsRef<[u8]>) -> Result<(), CliError> {
-    let mut stdout = io::stdout().lock();
-    match stdout.write_all(text.as_ref()).and_then(|()| stdout.flush()) {
+    written(io::stdout().lock().write_all(text.as_ref()))
+}
+
+/// What became of something written to stdout.
+pub fn written(result: io::Result<()>) -> Result<(), CliError> {
+    match result.and_then(|()| io::stdout().flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(CliError::write("stdout")(error)),
         _ => Ok(()),
     }

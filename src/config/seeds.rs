@@ -2,13 +2,11 @@
 
 use super::error::Problem;
 use super::path::KeyPath;
+use crate::files::names::PARETO;
 use crate::grammar::Tokens;
 use crate::io::{Input, Inputs, table, text};
 use crate::search::params::{SearchParams, Seeds};
 use std::path::PathBuf;
-
-/// The front of a results folder.
-const PARETO: &str = "pareto.csv";
 
 /// The file in which the strings stand, if they stand in one.
 pub(super) fn file(seeds: &Seeds) -> Option<PathBuf> {

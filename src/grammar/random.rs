@@ -5,7 +5,7 @@
 use std::ops::RangeInclusive;
 
 use crate::mesh::InitialMesh;
-use crate::random::{Rng, below, chance, unit};
+use crate::random::{Rng, below, chance, unit, weighted};
 
 use super::rules::Rules;
 use super::tokens::{Token, Tokens};
@@ -176,14 +176,7 @@ impl Author<'_> {
         if choices.is_empty() || total <= 0.0 || !chance(rng, go) {
             return None;
         }
-        let mut drawn = unit(rng) * total;
-        for &(token, weight) in &choices {
-            drawn -= weight;
-            if drawn < 0.0 {
-                return Some(token);
-            }
-        }
-        choices.last().map(|&(token, _)| token)
+        weighted(rng, &choices)
     }
 }
 

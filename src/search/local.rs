@@ -4,7 +4,7 @@ use super::params::Survival;
 use super::problem::{Problem, RuleOperator};
 use super::state::State;
 use crate::grammar::Tokens;
-use crate::random::{Rng, below, chance, unit};
+use crate::random::{Rng, below, chance, weighted};
 
 /// How many of the least violating designs count as near misses.
 const MISSES: usize = 20;
@@ -61,20 +61,11 @@ pub(crate) fn step<P: Problem>(
     let mut made_by = Vec::new();
     let steps = if chance(rng, SECOND) { 2 } else { 1 };
     for _ in 0..steps {
-        let operator = drawn(rng);
+        let Some(operator) = weighted(rng, &STEPS) else { break };
         if let Some(further) = problem.vary(operator, &tokens, rng) {
             tokens = further;
             made_by.push(operator);
         }
     }
     (!made_by.is_empty()).then_some((tokens, made_by))
-}
-
-fn drawn(rng: &mut Rng) -> RuleOperator {
-    let mut left = unit(rng);
-    let found = STEPS.iter().find(|(_, weight)| {
-        left -= weight;
-        left < 0.0
-    });
-    found.unwrap_or(&STEPS[0]).0
 }

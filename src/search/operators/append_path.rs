@@ -22,9 +22,7 @@ pub(super) fn append_natural(
 ) -> Option<Tokens> {
     let walks = Walks::from(walker.mesh(), walker.marker());
     let paths = natural(walker.mesh(), &walks);
-    draw(walker, &walks, expressed, max, rng, |rng| {
-        (!paths.is_empty()).then(|| paths[below(rng, paths.len())].clone())
-    })
+    draw(walker, &walks, expressed, max, rng, |rng| one_of(&paths, rng).cloned())
 }
 
 /// The same along any simple polyedge of at most four edges from boundary to boundary.
@@ -34,11 +32,8 @@ pub(super) fn append_short(walker: &Walker, expressed: &Tokens, max: usize, rng:
     let starts: Vec<DartId> =
         walks.within(usize::MAX).iter().copied().filter(|&d| mesh.is_outside(d)).collect();
     draw(walker, &walks, expressed, max, rng, |rng| {
-        if starts.is_empty() {
-            return None;
-        }
-        let paths = simple(mesh, *starts.get(below(rng, starts.len()))?, SHORT, false);
-        (!paths.is_empty()).then(|| paths[below(rng, paths.len())].clone())
+        let start = one_of(&starts, rng)?;
+        one_of(&simple(mesh, *start, SHORT, false), rng).cloned()
     })
 }
 
@@ -54,9 +49,11 @@ fn draw(
     (0..TRIES).find_map(|_| {
         let mut rules: Vec<Vec<Token>> = path(rng)?.rules(walker, walks, false);
         rules.retain(|rule| expressed.len() + rule.len() <= max);
-        (!rules.is_empty()).then(|| {
-            let rule = rules.swap_remove(below(rng, rules.len()));
-            expressed.iter().copied().chain(rule).collect()
-        })
+        Some(expressed.iter().chain(one_of(&rules, rng)?).copied().collect())
     })
+}
+
+/// One of them, each as likely as the others; `None` of none.
+fn one_of<'a, T>(all: &'a [T], rng: &mut Rng) -> Option<&'a T> {
+    (!all.is_empty()).then(|| &all[below(rng, all.len())])
 }
