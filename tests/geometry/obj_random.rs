@@ -3,7 +3,7 @@
 use quadrille::io::{compas, obj};
 use quadrille::random::{self, Rng};
 use quadrille::surface::HeightFunction as _;
-use quadrille::surface::expression::Expression;
+use quadrille::expression::Expression;
 use std::collections::BTreeMap;
 
 /// A text of random pieces.
