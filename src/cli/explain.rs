@@ -69,6 +69,7 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     if let Some(results) = &developed.results {
         requirements(results, &developed.design.pattern.positions);
         also(results, &developed.design.pattern.positions);
+        near_points(results);
     }
     if let Some(picture) = explanation(&developed, &id(row.code)) {
         let name = format!("{EXPLAINED}/{}.svg", id(row.code));
@@ -131,6 +132,19 @@ fn requirements(results: &Detailed, positions: &[[f64; 3]]) {
             outln!("{} governs: {:.0} % of its limit is used", governing.quantity, 100.0 * governing.used());
         }
         None => outln!("none is configured"),
+    }
+}
+
+/// Which nodes columns and forces at points have found, and how far from where they were wanted.
+fn near_points(results: &Detailed) {
+    let found = &results.model.found;
+    if found.is_empty() {
+        return;
+    }
+    outln!("\nnodes found for points of the config");
+    for near in found {
+        let [x, y] = near.point;
+        outln!("  structure.{}: node {}, {:.3} m from ({x}, {y})", near.key, near.node, near.distance);
     }
 }
 

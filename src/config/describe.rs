@@ -7,8 +7,8 @@ use crate::search::params::{SearchParams, Seeds};
 use crate::skeleton::params::InitialMesh;
 use crate::structure::model::Direction;
 use crate::structure::params::{
-    FactorParams, HeightParams, LoadParams, Quantity, RequirementParams, SectionParams, StructureParams, SupportNodes,
-    SupportParams, SupportPlace,
+    EndJointParams, FactorParams, HeightParams, JointParams, JointWord, LoadParams, Quantity,
+    RequirementParams, SectionParams, StructureParams, SupportNodes, SupportParams, SupportPlace,
 };
 use crate::surface::params::SurfaceParams;
 
@@ -209,7 +209,9 @@ fn describe_structure(structure: &StructureParams) -> Vec<String> {
             format!("section of given properties, A {} cm², Iy {} cm⁴", 1e4 * area_m2, 1e8 * iy_m4)
         }
     };
-    let mut lines = vec![format!("structure: rigid frame, {order} order; {section}, {height}")];
+    let joints = if structure.joints.is_rigid() { "rigid frame" } else { "frame with joints" };
+    let mut lines = vec![format!("structure: {joints}, {order} order; {section}, {height}")];
+    lines.extend(describe_joints(&structure.joints));
     lines.extend(structure.supports.iter().map(describe_support));
     lines.extend(structure.loads.iter().map(|(name, load)| format!("load {name}: {}", describe_load(load))));
     for (name, factors) in &structure.combinations {
@@ -218,6 +220,25 @@ fn describe_structure(structure: &StructureParams) -> Vec<String> {
     }
     lines.extend(structure.requirements.iter().map(describe_requirement));
     lines
+}
+
+/// What is not rigid about the joints of members.
+fn describe_joints(joints: &EndJointParams) -> Option<String> {
+    let about = [
+        ("bending out of the surface", joints.bending_y),
+        ("bending in the surface", joints.bending_z),
+        ("torsion", joints.torsion),
+    ];
+    let words = |joint: JointParams| match joint {
+        JointParams::Word(JointWord::Rigid) => None,
+        JointParams::Word(JointWord::Hinge) => Some("hinged".to_owned()),
+        JointParams::Bending { ei_per_l } => Some(format!("{ei_per_l} EI/L")),
+        JointParams::Torsion { gj_per_l } => Some(format!("{gj_per_l} GJ/L")),
+        JointParams::Absolute { nm_per_rad } => Some(format!("{} kNm/rad", nm_per_rad / 1e3)),
+    };
+    let parts: Vec<String> =
+        about.into_iter().filter_map(|(axis, joint)| Some(format!("{axis} {}", words(joint)?))).collect();
+    (!parts.is_empty()).then(|| format!("joints at both ends of members: {}", parts.join(", ")))
 }
 
 /// A length as an engineer writes it.

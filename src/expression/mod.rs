@@ -194,7 +194,8 @@ mod tests {
 
     #[test]
     fn other_variables() {
-        let zone = Expression::parse_of(&["x", "y", "z", "nx"], "z * (nx > 0.5)", &BTreeMap::new(), &[]).unwrap();
+        let zone =
+            Expression::parse_of(&["x", "y", "z", "nx"], "z * (nx > 0.5)", &BTreeMap::new(), &[]).unwrap();
         assert_eq!(zone.value(&[0.0, 0.0, 7.0, 0.6]), 7.0);
         let error = Expression::parse("z", &BTreeMap::new(), &[]).unwrap_err();
         assert!(error.reason.contains("unknown name `z`"), "{error}");

@@ -1,8 +1,8 @@
 //! What the `[structure]` table must satisfy beyond its types.
 
 use super::params::{
-    ElementsPerMember, FactorParams, HeightParams, LoadParams, SectionParams, StiffnessParams, StructureParams,
-    SupportParams,
+    ElementsPerMember, FactorParams, HeightParams, LoadParams, SectionParams, StiffnessParams,
+    StructureParams, SupportParams,
 };
 use super::section::Section;
 
@@ -193,8 +193,7 @@ fn check_support(problems: &mut Problems, i: usize, support: &SupportParams) {
     match support.nodes().as_slice() {
         [_] => {}
         [] => {
-            let message =
-                "give at = \"boundary\", \"corners\" or \"all\", or loop = k, nodes_near_m, sides_near_m or inside_near_m";
+            let message = "give at = \"boundary\", \"corners\" or \"all\", or loop = k, nodes_near_m, sides_near_m or inside_near_m";
             problems.push((key("at"), message.into()));
         }
         [(first, _), (second, _), ..] => {

@@ -16,7 +16,11 @@ const PLACE: f64 = 1e-6;
 const TOLERANCE: f64 = 1e-6;
 
 /// Refuses a symmetry that does not carry every load into itself.
-pub fn check_symmetry(domain: &Domain, kind: Symmetry, structure: &StructureParams) -> Result<(), StudyError> {
+pub fn check_symmetry(
+    domain: &Domain,
+    kind: Symmetry,
+    structure: &StructureParams,
+) -> Result<(), StudyError> {
     for (name, load) in &structure.loads {
         let refused = |key: &str, reason: String| StudyError::LoadImage {
             key: format!("structure.loads.{name}.{key}"),
@@ -50,16 +54,17 @@ fn differs(domain: &Domain, kind: Symmetry, factor: &Factor) -> Option<String> {
     let [low, high] = domain.bounds();
     let [sx, sy] = kind.signs();
     // Not the middles of the strips, where an image may be the point itself.
-    let along = |axis: usize, i: usize| {
-        low[axis] + (high[axis] - low[axis]) * (i as f64 + 0.37) / POINTS as f64
-    };
+    let along =
+        |axis: usize, i: usize| low[axis] + (high[axis] - low[axis]) * (i as f64 + 0.37) / POINTS as f64;
     let points = (0..POINTS * POINTS).map(|k| [along(0, k % POINTS), along(1, k / POINTS)]);
     points.filter(|point| domain.contains(*point)).find_map(|[x, y]| {
         let [u, v] = domain.plan_image([x, y], kind);
-        let values = HEIGHTS.iter().flat_map(|z| NORMALS.iter().map(move |n| (*z, *n))).map(|(z, [nx, ny, nz])| {
-            (factor.at([x, y, z], [nx, ny, nz]), factor.at([u, v, z], [sx * nx, sy * ny, nz]))
-        });
-        let mut values = values.filter(|(here, there)| (here - there).abs() > TOLERANCE * here.abs().max(there.abs()));
+        let values =
+            HEIGHTS.iter().flat_map(|z| NORMALS.iter().map(move |n| (*z, *n))).map(|(z, [nx, ny, nz])| {
+                (factor.at([x, y, z], [nx, ny, nz]), factor.at([u, v, z], [sx * nx, sy * ny, nz]))
+            });
+        let mut values =
+            values.filter(|(here, there)| (here - there).abs() > TOLERANCE * here.abs().max(there.abs()));
         let (here, there) = values.next()?;
         Some(format!("it is {here} at ({x:.3}, {y:.3}) and {there} at its image, ({u:.3}, {v:.3})"))
     })

@@ -36,11 +36,10 @@ impl Study {
     /// Directions that no support holds.
     fn free_directions(&self) -> Option<String> {
         let supports = &self.structure.as_ref()?.supports;
-        let is_free =
-            |direction: &Direction| {
-                let d = *direction as usize;
-                supports.iter().map(SupportParams::holds).all(|(fixed, springs)| !fixed[d] && springs[d] == 0.0)
-            };
+        let is_free = |direction: &Direction| {
+            let d = *direction as usize;
+            supports.iter().map(SupportParams::holds).all(|(fixed, springs)| !fixed[d] && springs[d] == 0.0)
+        };
         let free = [Direction::Ux, Direction::Uy, Direction::Uz].into_iter().filter(is_free);
         let names: Vec<String> = free.map(Direction::name).collect();
         (!names.is_empty()).then(|| {

@@ -27,7 +27,10 @@ pub fn check_points(domain: &Domain, structure: &StructureParams) -> Result<(), 
         let LoadParams::Point { points_m, .. } = load else { continue };
         let wrong = points_m.iter().enumerate().find_map(|(k, &point)| Some((k, outside(domain, point)?)));
         if let Some((k, reason)) = wrong {
-            return Err(StudyError::SupportPoint { key: format!("structure.loads.{name}.points_m[{k}]"), reason });
+            return Err(StudyError::SupportPoint {
+                key: format!("structure.loads.{name}.points_m[{k}]"),
+                reason,
+            });
         }
     }
     Ok(())

@@ -252,10 +252,16 @@ fn what_the_new_keys_may_not_say() {
         (|m| m["members"][1]["section"] = json!(2), "members[1].section = 2"),
         (|m| m["members"][1]["section"] = Value::Null, "members[1]: missing key `section`"),
         (|m| m["members"][1]["up"] = Value::Null, "members[1]: missing key `up`"),
-        (|m| m["members"][3]["start_release"] = json!({"torsion": "hinge"}), "members[3].start_release: a truss"),
+        (
+            |m| m["members"][3]["start_release"] = json!({"torsion": "hinge"}),
+            "members[3].start_release: a truss",
+        ),
         (|m| m["members"][0]["end_release"] = json!({"bending_x": "hinge"}), "did you mean `bending_"),
         (|m| m["members"][0]["end_release"] = json!({"bending_y": "hinged"}), "\"rigid\", \"hinge\""),
-        (|m| m["members"][0]["end_release"] = json!({"bending_y": {"ei_per_l": -8}}), "end_release.bending_y: ei_per_l = -8"),
+        (
+            |m| m["members"][0]["end_release"] = json!({"bending_y": {"ei_per_l": -8}}),
+            "end_release.bending_y: ei_per_l = -8",
+        ),
         (
             |m| {
                 m["members"][0]["end_release"] = json!({"torsion": "hinge"});
@@ -264,7 +270,10 @@ fn what_the_new_keys_may_not_say() {
             "members[0]: torsion is released at both ends",
         ),
         (|m| m["supports"][1]["stiffness"][0] = json!(-2), "supports[1].stiffness[0]: -2 must be 0 or more"),
-        (|m| m["supports"][1]["displacement"] = json!([0.1, 0, 0, 0, 0, 0]), "node 3: a displacement is prescribed in Ux"),
+        (
+            |m| m["supports"][1]["displacement"] = json!([0.1, 0, 0, 0, 0, 0]),
+            "node 3: a displacement is prescribed in Ux",
+        ),
         (|m| m["loads"]["temperature"][1]["member"] = json!(9), "loads.temperature"),
     ];
     for (change, expected) in wrong {

@@ -71,7 +71,7 @@ fn on_panels(
     let mut forces = vec![Vector3::zeros(); pattern.positions.len()];
     for panel in &pattern.panels {
         let shape = PanelShape::new(pattern, panel.corners());
-        if !(shape.area > 0.0) {
+        if shape.area == 0.0 {
             continue;
         }
         let mut load = of(&shape);
@@ -81,7 +81,10 @@ fn on_panels(
             let times = factor.at(shape.middle.into(), normal.into());
             if !times.is_finite() {
                 let [x, y, z]: [f64; 3] = shape.middle.into();
-                return Err(wrong(format!("`{}` is {times} on the panel at ({x:.3}, {y:.3}, {z:.3})", factor.text())));
+                return Err(wrong(format!(
+                    "`{}` is {times} on the panel at ({x:.3}, {y:.3}, {z:.3})",
+                    factor.text()
+                )));
             }
             load *= times;
         }

@@ -49,11 +49,8 @@ pub fn utilisations(
 ) -> impl Iterator<Item = Utilisation> {
     let strength = model.frame.material().strength;
     let section = solver.sections()[0];
-    (0..model.frame.members().len()).map(move |m| {
-        solver
-            .forces_of(m, answer.u, answer.between.of(m))
-            .utilisation(&section, strength)
-    })
+    (0..model.frame.members().len())
+        .map(move |m| solver.forces_of(m, answer.u, answer.between.of(m)).utilisation(&section, strength))
 }
 
 /// The largest values; `reactions` is room.
