@@ -3,6 +3,7 @@
 use super::Config;
 use crate::domain::params::{CornerRule, Corners, LengthUnit, LoopParams};
 use crate::geometry::params::{Density, PatternParams};
+use crate::objectives;
 use crate::search::params::{SearchParams, Seeds};
 use crate::skeleton::params::InitialMesh;
 use crate::structure::model::Direction;
@@ -76,13 +77,11 @@ fn pinned_objectives(structure: &StructureParams, objectives: &[String], warning
         return;
     }
     for requirement in &structure.requirements {
-        let name = match requirement.quantity {
-            Quantity::BucklingFactor => "buckling",
-            Quantity::Deflection => "deflection",
-            Quantity::Utilisation => "utilisation",
-            Quantity::DeflectionVertical | Quantity::UtilisationAll | Quantity::UtilisationVonMises => {
-                continue;
-            }
+        let name = match requirement.analysed() {
+            Some(Quantity::BucklingFactor | Quantity::Buckling) => "buckling",
+            Some(Quantity::Deflection) => "deflection",
+            Some(Quantity::Utilisation) => "utilisation",
+            _ => continue,
         };
         if objectives.iter().any(|objective| objective == name) {
             warnings.push(format!(
@@ -265,19 +264,37 @@ fn describe_load(load: &LoadParams) -> String {
 }
 
 fn describe_requirement(requirement: &RequirementParams) -> String {
-    let (quantity, unit) = match requirement.quantity {
-        Quantity::Deflection => ("deflection", " m"),
-        Quantity::DeflectionVertical => ("vertical deflection", " m"),
-        Quantity::Utilisation => ("utilisation", ""),
-        Quantity::UtilisationAll => ("utilisation of all members", ""),
-        Quantity::UtilisationVonMises => ("von Mises utilisation", ""),
-        Quantity::BucklingFactor => ("first buckling factor", ""),
+    let quantity = match requirement.analysed() {
+        Some(Quantity::DeflectionVertical) => "vertical deflection".to_owned(),
+        Some(Quantity::UtilisationAll) => "utilisation of all members".to_owned(),
+        Some(Quantity::UtilisationVonMises) => "von Mises utilisation".to_owned(),
+        Some(Quantity::BucklingFactor) => "first buckling factor".to_owned(),
+        _ => in_words(&requirement.quantity.to_string()),
     };
-    let limit = match (requirement.max, requirement.min) {
+    let limit = limit(&requirement.quantity.to_string(), requirement.max, requirement.min);
+    let combination = match (&requirement.combination, requirement.analysed()) {
+        (Some(name), _) => format!(" under {name}"),
+        (None, Some(_)) => " under every combination that it is told of".into(),
+        (None, None) => String::new(),
+    };
+    format!("required: {quantity} {limit}{combination}")
+}
+
+/// The name of a metric as people say it.
+fn in_words(name: &str) -> String {
+    objectives::called(name).map_or(name, |metric| metric.name).replace('_', " ")
+}
+
+/// An upper or lower limit with the unit of the metric.
+fn limit(metric: &str, max: Option<f64>, min: Option<f64>) -> String {
+    let unit = match objectives::called(metric).map_or("", |metric| metric.unit) {
+        "" => String::new(),
+        unit => format!(" {unit}"),
+    };
+    match (max, min) {
         (Some(max), _) => format!("≤ {max}{unit}"),
         (None, min) => format!("≥ {}{unit}", min.unwrap_or(0.0)),
-    };
-    format!("required: {quantity} {limit} under {}", requirement.combination)
+    }
 }
 
 fn describe_search(config: &Config) -> Vec<String> {

@@ -7,7 +7,7 @@ use super::{Config, VERSION, seeds};
 use crate::domain::params::{Corners, LoopParams};
 use crate::geometry::params::{Density, RelaxKind};
 use crate::io::{Inputs, ReadError};
-use crate::objectives::{self, METRICS};
+use crate::objectives::{self, METRICS, Metric};
 use crate::skeleton::params::InitialMesh;
 use crate::structure::params::{
     HeightParams, Quantity, RequirementParams, SectionParams, StructureParams, SupportNodes, SupportParams,
@@ -273,9 +273,28 @@ impl Rules<'_> {
         key: &KeyPath,
     ) {
         let known: Vec<&str> = combinations.keys().map(String::as_str).collect();
-        self.known(&key.key("combination"), "combination", &requirement.combination, &known);
+        let quantity = requirement.analysed();
+        match (&requirement.combination, quantity) {
+            (Some(name), Some(_)) => self.known(&key.key("combination"), "combination", name, &known),
+            (None, Some(quantity)) if quantity.needs_combination() => {
+                let message = format!("missing; allowed: {}", known.join(", "));
+                self.refuse(key.key("combination"), message);
+            }
+            (Some(name), None) => {
+                let message = format!(
+                    "found \"{name}\", but {} is no matter of loads; leave it out",
+                    requirement.quantity
+                );
+                self.refuse(key.key("combination"), message);
+            }
+            (None, _) => {}
+        }
+        if quantity.is_none() {
+            self.metric(&key.key("quantity"), &requirement.quantity.to_string(), |_| true);
+        }
         // What a greater height does not bring nearer cannot be sized for.
-        let lower = requirement.quantity == Quantity::BucklingFactor;
+        let sized = sized && quantity.is_some_and(Quantity::is_sized_for);
+        let lower = quantity.is_some_and(Quantity::better_large);
         let wanted = if lower { "min" } else { "max" };
         match (requirement.max, requirement.min) {
             (Some(_), Some(_)) => {
@@ -288,6 +307,18 @@ impl Rules<'_> {
             }
             (None, None) => self.refuse(key.key(wanted), "missing; allowed: a number > 0"),
             _ => {}
+        }
+    }
+
+    /// A metric by its name or column; of those that may be limited here.
+    fn metric(&mut self, key: &KeyPath, name: &str, may: fn(&Metric) -> bool) {
+        let allowed = METRICS.iter().filter(|metric| may(metric));
+        match objectives::called(name) {
+            Some(metric) if may(metric) => {}
+            _ => {
+                let known: Vec<&str> = allowed.map(|metric| metric.name).collect();
+                self.known(key, "metric", name, &known);
+            }
         }
     }
 

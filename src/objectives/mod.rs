@@ -99,10 +99,15 @@ pub fn better_large(name: &str) -> Option<&'static str> {
 }
 
 /// The columns that say in which combination of loads a metric is taken, and which combination that is.
-pub const GOVERNING: [(&str, GoverningOf); 3] = [
+pub const GOVERNING: [(&str, GoverningOf); 8] = [
     ("deflection_combination", |governing| Some(&governing.deflection)),
     ("utilisation_combination", |governing| Some(&governing.utilisation)),
     ("buckling_combination", |governing| governing.buckling.as_deref()),
+    ("deflection_vertical_combination", |governing| Some(&governing.deflection_vertical)),
+    ("utilisation_all_combination", |governing| Some(&governing.utilisation_all)),
+    ("utilisation_von_mises_combination", |governing| Some(&governing.utilisation_von_mises)),
+    ("uplift_combination", |governing| Some(&governing.uplift)),
+    ("support_slide_combination", |governing| Some(&governing.support_slide)),
 ];
 
 /// Reads one combination off those that govern.
@@ -117,6 +122,11 @@ pub fn governing(design: &AnalysedDesign) -> Vec<String> {
 /// The metric of a name.
 pub fn find(name: &str) -> Option<&'static Metric> {
     METRICS.iter().copied().find(|metric| metric.name == name)
+}
+
+/// The metric that is called so: by its name, or by its column with the unit.
+pub fn called(name: &str) -> Option<&'static Metric> {
+    METRICS.iter().copied().find(|metric| metric.name == name || metric.column == name)
 }
 
 /// The metric of a name among values in the order of [`METRICS`], as an evaluation has them; `None` for one that does not exist.

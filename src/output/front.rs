@@ -112,9 +112,11 @@ mod tests {
         assert_eq!(
             text,
             "id,string,expressed,code,symmetry,generation,feasible,mass_kg,curvature,buckling_factor,\
-             deflection_combination,utilisation_combination,buckling_combination,equal_designs,preferred\n\
-             q000000000000,\"\",\"\",q0000000000000002,,3,true,1.5,1,,,,,1,\n\
-             q000000000000,ATA,ATA,q0000000000000001,,3,true,2,0.5,,sls,uls,,2,\n"
+             deflection_combination,utilisation_combination,buckling_combination,deflection_vertical_combination,\
+             utilisation_all_combination,utilisation_von_mises_combination,uplift_combination,\
+             support_slide_combination,equal_designs,preferred\n\
+             q000000000000,\"\",\"\",q0000000000000002,,3,true,1.5,1,,,,,,,,,,1,\n\
+             q000000000000,ATA,ATA,q0000000000000001,,3,true,2,0.5,,sls,uls,,,,,,,2,\n"
         );
         objectives.weights = vec![1.0, 10.0];
         let standing = Standing::of(&evaluated, &[0, 1], &objectives);

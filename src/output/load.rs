@@ -8,7 +8,7 @@ use crate::files::names::{self, CHECKPOINT, EVALUATION, GENERATIONS, HISTORY, MA
 use crate::io::table;
 use crate::mesh::Symmetries;
 use crate::mesh::canonical::Code;
-use crate::objectives::GOVERNING;
+use crate::objectives::{GOVERNING, METRICS};
 use crate::search::{Breeding, EvaluatedRow, GenerationRow, Snapshot};
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -72,6 +72,8 @@ pub struct Loaded {
     pub is_unfinished: bool,
     /// How the tables and the names of the files in `designs/` write ids.
     pub naming: Naming,
+    /// Columns of metrics and combinations that `history.csv` does not have: an older version wrote it.
+    pub lacking: Vec<&'static str>,
 }
 
 /// Reads a results folder: a finished run from its tables, any other as it stood after its last finished generation.
@@ -97,6 +99,7 @@ pub fn look(folder: &Path) -> Result<Loaded, LoadError> {
         generations,
         is_unfinished: true,
         naming: Naming::Lettered,
+        lacking: Vec::new(),
     })
 }
 
@@ -140,7 +143,11 @@ fn tables(folder: &Path, manifest: Manifest, config: Config) -> Result<Loaded, L
     })?;
     let generations = Sheet::each(folder, GENERATIONS, |record| generation(record, &columns))?;
     let is_unfinished = manifest.status != Status::Finished;
-    Ok(Loaded { manifest, config, evaluated, front, generations, is_unfinished, naming: naming.get() })
+    let header = Sheet::header(&folder.join(HISTORY))?;
+    let columns = METRICS.iter().map(|metric| metric.column).chain(GOVERNING.map(|(column, _)| column));
+    let lacking = columns.filter(|column| !header.iter().any(|name| name == column)).collect();
+    let naming = naming.get();
+    Ok(Loaded { manifest, config, evaluated, front, generations, is_unfinished, naming, lacking })
 }
 
 /// What a folder without a manifest is, and what to do.
