@@ -46,7 +46,7 @@ pub struct Contradiction {
 /// # Errors
 /// [`LoadError`] if a file cannot be read or lacks a promised column.
 pub fn contradictions(folder: &Path, loaded: &Loaded) -> Result<Vec<Contradiction>, LoadError> {
-    let columns = Columns::of(&loaded.config.objectives.minimise);
+    let columns = Columns::of(&loaded.config.objectives);
     let of_history = columns.history_header();
     let mut found = header(folder, HISTORY, &of_history)?;
     found.extend(rows(folder, (HISTORY, loaded.naming), &of_history, |record| {
