@@ -324,7 +324,7 @@ impl Developed {
     }
 
     /// Its supported nodes, and whether they are held horizontally; none where nothing was analysed.
-    pub(super) fn supports(&self) -> Vec<([f64; 3], bool)> {
+    pub fn supports(&self) -> Vec<([f64; 3], bool)> {
         let Some(frame) = self.results.as_ref().map(|results| &results.model.frame) else {
             return Vec::new();
         };

@@ -193,6 +193,7 @@ impl FileSection {
                 asy: of(self.Asy),
                 asz: of(self.Asz),
                 shear: None,
+                shape: None,
             },
         })
     }
