@@ -12,6 +12,7 @@ use crate::config::{self, Config};
 use crate::domain::params::Pinched;
 use crate::domain::{self, Domain, DomainError};
 use crate::evolve::{FAILED, Violation};
+use crate::geometry::distinct::Distinct;
 use crate::geometry::limits::{self, LimitExcess, Limits};
 use crate::geometry::metrics::{self, Fabrication};
 use crate::geometry::{self, Pattern, PatternParams, Rejection, Shaped};
@@ -21,7 +22,8 @@ use crate::mesh::distance::deletions;
 use crate::mesh::fold::{FoldError, Folded};
 use crate::mesh::isomorphism::{Equivalence, Symmetry, canonical_mesh_under};
 use crate::mesh::{BaseMesh, BaseMeshError, CanonicalMesh, Code, InitialMesh, QuadMesh};
-use crate::objectives::{self, AnalysedDesign, METRICS, Metric};
+use crate::objectives::params::FabricationParams;
+use crate::objectives::{self, AnalysedDesign, METRICS, Objective};
 use crate::random::Rng;
 use crate::search::operators::{Growth, Reach};
 use crate::search::params::EquivalenceParams;
@@ -44,8 +46,8 @@ pub struct Study {
     pub initial: InitialMesh,
     /// The same folded along the mirrors of the config: where strings are decoded. Without mirrors the mesh itself.
     pub start: Folded,
-    /// What is minimised, in the order of the config.
-    pub objectives: Vec<&'static Metric>,
+    /// What is minimised, then what is maximised, in the order of the config.
+    pub objectives: Vec<Objective>,
     /// By which rules strings grow.
     pub rules: Rules,
     symmetries: Vec<Symmetry>,
@@ -55,6 +57,7 @@ pub struct Study {
     baseline: Code,
     pinched: Pinched,
     pattern: PatternParams,
+    fabrication: FabricationParams,
     limits: Limits,
     structure: Option<StructureParams>,
     search: SearchParams,
@@ -189,8 +192,14 @@ pub struct Design {
     pub pattern: Pattern,
     /// Its measures.
     pub fabrication: Fabrication,
-    /// The limits of the config, kept or not.
+    /// How many different pieces it has.
+    pub distinct: Distinct,
+    /// What pieces cost.
+    pub figures: FabricationParams,
+    /// The limits of the pattern in the config, kept or not.
     pub limits: Vec<LimitExcess>,
+    /// Requirements of metrics that the analysis alone does not tell, kept or not.
+    pub required: Vec<LimitExcess>,
     /// The answer of the structure, where one is configured and was asked for.
     pub response: Option<Response>,
 }
@@ -256,8 +265,11 @@ impl Study {
         }
         let symmetries: Vec<Symmetry> = symmetries.into_iter().map(|(_, symmetry)| symmetry).collect();
         let limits = Limits::of(&config.pattern.limits, config.pattern.target_length(&domain));
-        let objectives =
-            config.objectives.minimise.iter().filter_map(|name| objectives::find(name)).collect();
+        let named = config.objectives.names().enumerate();
+        let objectives = named.filter_map(|(place, name)| {
+            let maximised = config.objectives.is_maximised(place);
+            objectives::find(name).map(|metric| Objective { metric, maximised })
+        });
         let mirrors: Vec<domain::Symmetry> = config.topology.symmetry.iter().map(|m| m.kind()).collect();
         let start = start_of(config, &domain, &initial)?;
         let whole = start.unfold(&start.part.mesh, start.part.marker).0;
@@ -273,7 +285,8 @@ impl Study {
             mirrors,
             initial,
             start,
-            objectives,
+            objectives: objectives.collect(),
+            fabrication: config.fabrication,
             pinched: config.topology.pinched,
             limits,
             pattern: config.pattern.clone(),
@@ -333,7 +346,7 @@ impl Study {
         };
         if let (true, Some(params)) = (worthwhile, &self.structure) {
             match gridshell::analyse(&design.pattern, params) {
-                Ok(response) => design.response = Some(response),
+                Ok(response) => design.answer(response, params),
                 Err(error) => return Err(Failure::of_structure(error, design)),
             }
         }
@@ -353,7 +366,7 @@ impl Study {
         let Some(params) = &self.structure else { return Ok((design, None)) };
         match gridshell::analyse_detailed(&design.pattern, params, proof) {
             Ok(detailed) => {
-                design.response = Some(detailed.response.clone());
+                design.answer(detailed.response.clone(), params);
                 Ok((design, Some(detailed)))
             }
             Err(error) => Err(Failure::of_structure(error, design)),
@@ -376,8 +389,20 @@ impl Study {
         let surface = self.surface.as_ref();
         let Shaped { pattern, refused } = geometry::shape(&topology, &self.domain, surface, &self.pattern)?;
         let fabrication = metrics::measure(&pattern, &topology, &self.domain);
-        let limits = limits::excesses(&(&fabrication).into(), &self.limits);
-        let design = Design { topology, pattern, fabrication, limits, response: None };
+        let mut design = Design {
+            distinct: Distinct::of(&pattern, self.fabrication.tolerance_m),
+            figures: self.fabrication,
+            limits: limits::excesses(&(&fabrication).into(), &self.limits),
+            required: Vec::new(),
+            response: None,
+            topology,
+            pattern,
+            fabrication,
+        };
+        let limited = self.pattern.metric_limits.iter();
+        let more = limited.filter_map(|l| objectives::limit(&design.analysed(), &l.quantity, l.max, l.min));
+        let more: Vec<LimitExcess> = more.collect();
+        design.limits.extend(more);
         match refused {
             None => Ok(design),
             Some(rejection @ Rejection::NotFinite { .. }) => Err(rejection.into()),
@@ -395,14 +420,23 @@ impl Study {
     /// Everything that is known of a developed design, as the search and the files take it.
     pub fn evaluation(&self, design: &Design) -> Evaluation {
         let analysed = design.analysed();
-        let objectives: Vec<f64> =
-            self.objectives.iter().filter_map(|objective| (objective.value)(&analysed)).collect();
+        let values: Vec<Option<f64>> = self.objectives.iter().map(|o| o.value(&analysed)).collect();
+        let turned = self.objectives.iter().zip(&values).filter_map(|(o, value)| Some(o.turned((*value)?)));
+        let objectives: Vec<f64> = turned.collect();
+        let mut metrics = design.metrics();
+        for (objective, value) in self.objectives.iter().zip(values).filter(|(o, _)| o.maximised) {
+            // As it is compared, so it is told.
+            let place = METRICS.iter().position(|metric| metric.name == objective.metric.name);
+            if let Some(metric) = place.and_then(|place| metrics.get_mut(place)) {
+                *metric = value.map(round_significant);
+            }
+        }
         let (measure, reason) = design.excess();
         Evaluation {
             violation: stage_1(measure),
             reason,
             objectives: if objectives.len() == self.objectives.len() { objectives } else { Vec::new() },
-            metrics: design.metrics(),
+            metrics,
             governing: objectives::governing(&analysed),
             structural: design.response.is_some(),
         }
@@ -483,8 +517,19 @@ impl Design {
         AnalysedDesign {
             topology: &self.topology,
             fabrication: &self.fabrication,
+            distinct: &self.distinct,
+            figures: &self.figures,
             response: self.response.as_ref(),
         }
+    }
+
+    /// Takes the answer of the structure, and asks what is required of other metrics.
+    fn answer(&mut self, response: Response, params: &StructureParams) {
+        self.response = Some(response);
+        let asked = params.requirements.iter().filter(|required| required.analysed().is_none());
+        let required =
+            asked.filter_map(|r| objectives::limit(&self.analysed(), &r.quantity.to_string(), r.max, r.min));
+        self.required = required.collect();
     }
 
     /// All metrics that it has, in the order of the registry, rounded as they are compared and written.
@@ -497,7 +542,9 @@ impl Design {
         let limits = self.limits.iter().map(|l| (l.name.to_owned(), l.value, l.limit, l.excess));
         let requirements = self.response.iter().flat_map(|r| &r.requirements);
         let requirements = requirements.map(|r| (r.quantity.to_string(), r.value, r.limit, r.excess()));
-        let exceeded: Vec<_> = limits.chain(requirements).filter(|&(.., excess)| excess > 0.0).collect();
+        let required = self.required.iter().map(|l| (l.name.to_owned(), l.value, l.limit, l.excess));
+        let exceeded: Vec<_> =
+            limits.chain(requirements).chain(required).filter(|&(.., excess)| excess > 0.0).collect();
         let words: Vec<String> = exceeded
             .iter()
             .map(|(name, value, limit, _)| format!("{name} {value:.4} (limit {limit})"))

@@ -45,8 +45,8 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
         return Err(CliError::Failed("none of these designs has all objectives".into()));
     };
     outln!("# 1 % and 95 % quantiles of {} of {} random designs", points.count(), evaluations.len());
-    outln!("ideal = {}", list(&axes.ideal));
-    outln!("reference = {}", list(&axes.reference));
+    outln!("ideal = {}", list(&config.objectives.turned(&axes.ideal)));
+    outln!("reference = {}", list(&config.objectives.turned(&axes.reference)));
     Ok(ExitCode::SUCCESS)
 }
 

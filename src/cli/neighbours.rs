@@ -6,7 +6,7 @@ use super::folder_args::{folder_exists, refuse_other_kind};
 use super::topology::parse_string;
 use super::{CliError, Console};
 use quadrille::files::atomic;
-use quadrille::objectives::Metric;
+use quadrille::objectives::Objective;
 use quadrille::output::number::significant;
 use quadrille::search::operators::Reach;
 use std::collections::BTreeSet;
@@ -102,7 +102,7 @@ fn verdict(won: usize, objectives: usize) -> String {
 }
 
 /// Prints the best feasible neighbours of one objective; true if the given design is better than all of them.
-fn rank(comparison: &Comparison, index: usize, objective: &Metric) -> bool {
+fn rank(comparison: &Comparison, index: usize, objective: &Objective) -> bool {
     let value = |entry: usize| comparison.entries[entry].evaluation.objectives.get(index).copied();
     let own = value(0);
     let mut others: Vec<(f64, usize)> = (1..comparison.entries.len())
@@ -112,11 +112,16 @@ fn rank(comparison: &Comparison, index: usize, objective: &Metric) -> bool {
     others.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let own_is_feasible = comparison.entries[0].evaluation.violation.is_feasible();
     let best = own_is_feasible && own.zip(others.first()).is_some_and(|(own, &(other, _))| own < other);
-    let shown = own.map_or_else(|| "–".into(), significant);
-    outln!("\n{}: {shown}{}", objective.column, if best { ", better than all neighbours" } else { "" });
+    let told = |value: f64| significant(objective.turned(value));
+    let shown = own.map_or_else(|| "–".into(), told);
+    outln!(
+        "\n{}: {shown}{}",
+        objective.metric.column,
+        if best { ", better than all neighbours" } else { "" }
+    );
     for (value, entry) in others.into_iter().take(LISTED) {
         let entry = &comparison.entries[entry];
-        outln!("  {:>12}  {}  {}", significant(value), entry.id(), entry.name);
+        outln!("  {:>12}  {}  {}", told(value), entry.id(), entry.name);
     }
     best
 }

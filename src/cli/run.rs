@@ -244,20 +244,20 @@ fn evolve(
     let settings = Settings {
         search: config.search.clone(),
         objectives: study.objectives.len(),
-        ideal: config.objectives.ideal.clone(),
-        reference: config.objectives.reference.clone(),
+        ideal: config.objectives.turned(&config.objectives.ideal),
+        reference: config.objectives.turned(&config.objectives.reference),
         seed: config.run.seed.unwrap_or_default(),
     };
     let tell = watch.display.teller();
     let told = "ending with the evaluations in flight; another signal after a second aborts at once";
     signals::install(stop, move || tell(told)).map_err(failed)?;
     console.note(&format!(
-        "{}: population {}, {} generations, {} threads, minimising {}",
+        "{}: population {}, {} generations, {} threads, {}",
         config.run.name.as_deref().unwrap_or_default(),
         config.search.population,
         config.search.generations,
         watch.sitting.threads(),
-        config.objectives.minimise.join(", ")
+        config.objectives.in_words()
     ));
     console.detail(&to_toml(config));
     let outcome = search::run(study, &server, &settings, stop, Some(store), watch);
@@ -281,10 +281,10 @@ fn summarise(study: &Study, outcome: &Outcome, folder: &Folder, clock: Instant, 
     ));
     outln!("{}: {} designs on the front", folder.path().display(), outcome.front.len());
     for (i, objective) in study.objectives.iter().enumerate() {
-        let values = outcome.front.iter().map(|&row| outcome.evaluated[row].objectives[i]);
+        let values = outcome.front.iter().map(|&row| objective.turned(outcome.evaluated[row].objectives[i]));
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
         if low.is_finite() {
-            outln!("  {:<24} {:>12} to {:>12}", objective.column, significant(low), significant(high));
+            outln!("  {:<24} {:>12} to {:>12}", objective.metric.column, significant(low), significant(high));
         }
     }
     if outcome.front.is_empty() {

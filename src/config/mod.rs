@@ -28,6 +28,7 @@ pub use schema::config_schema;
 use crate::domain::params::DomainParams;
 use crate::geometry::params::PatternParams;
 use crate::io::Inputs;
+use crate::objectives::params::FabricationParams;
 use crate::search::params::{ObjectivesParams, SearchParams};
 use crate::skeleton::params::TopologyParams;
 use crate::structure::params::StructureParams;
@@ -64,7 +65,10 @@ pub struct Config {
     /// The frame analysis; without this table there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub structure: Option<StructureParams>,
-    /// What is minimised.
+    /// When pieces are the same, and what they cost.
+    #[serde(default, skip_serializing_if = "FabricationParams::is_default")]
+    pub fabrication: FabricationParams,
+    /// What is minimised, and maximised.
     #[serde(default)]
     pub objectives: ObjectivesParams,
     /// How strings are bred.

@@ -27,7 +27,7 @@ pub(super) fn fill_in(config: &mut Config, given: &Table) {
         let width = section_width(structure);
         config.pattern.limits.min_edge_m.get_or_insert(2.0 * width);
     }
-    if config.objectives.minimise.is_empty() {
+    if config.objectives.count() == 0 {
         let names = if config.structure.is_some() {
             names::WITH_STRUCTURE.as_slice()
         } else {
@@ -37,7 +37,7 @@ pub(super) fn fill_in(config: &mut Config, given: &Table) {
     }
     let initial = given.get("search").and_then(|search| search.get("initial"));
     if initial.and_then(|initial| initial.get("kind")).is_none() {
-        config.search.initial.kind = Initialiser::of(config.objectives.minimise.len());
+        config.search.initial.kind = Initialiser::of(config.objectives.count());
     }
 }
 

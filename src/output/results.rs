@@ -93,13 +93,13 @@ impl Run<'_> {
     /// # Errors
     /// [`ResultsError`].
     pub fn write_tables(&self, folder: &mut Folder) -> Result<(), ResultsError> {
-        let columns = Columns::of(&self.project.config.objectives.minimise);
+        let columns = Columns::of(&self.project.config.objectives);
         let Outcome { evaluated, generations: rows, .. } = self.outcome;
         let objectives = &self.project.config.objectives;
         let standing = Standing::of(evaluated, &self.outcome.front, objectives);
         let tables: [(&str, Table); 3] = [
             (names::PARETO, pareto(&self.front(), &standing, &columns)),
-            (names::GENERATIONS, generations(rows, &columns.objectives)),
+            (names::GENERATIONS, generations(rows, &columns)),
             (names::OPERATORS, operators(rows)),
         ];
         for dialect in self.dialects() {
@@ -324,7 +324,7 @@ impl Developed {
     }
 
     /// Its supported nodes, and whether they are held horizontally; none where nothing was analysed.
-    pub(super) fn supports(&self) -> Vec<([f64; 3], bool)> {
+    pub fn supports(&self) -> Vec<([f64; 3], bool)> {
         let Some(frame) = self.results.as_ref().map(|results| &results.model.frame) else {
             return Vec::new();
         };

@@ -38,7 +38,7 @@ impl Sitting {
             program: manifest::PROGRAM.into(),
             program_version: env!("CARGO_PKG_VERSION").into(),
             name: config.run.name.clone().unwrap_or_default(),
-            objectives: Columns::of(&config.objectives.minimise).objectives,
+            objectives: Columns::of(&config.objectives).objectives,
             seed: config.run.seed.unwrap_or_default(),
             threads,
             status: Status::Running,

@@ -329,7 +329,13 @@ mod tests {
 
     fn stiffness() -> Stiffness {
         let section = Section::rectangular_hollow(0.1, 0.2, 0.008).unwrap();
-        let material = Material { youngs_modulus: 210e9, shear_modulus: 80e9, density: 0.0, strength: 1.0, thermal_expansion: 0.0 };
+        let material = Material {
+            youngs_modulus: 210e9,
+            shear_modulus: 80e9,
+            density: 0.0,
+            strength: 1.0,
+            thermal_expansion: 0.0,
+        };
         Stiffness::new(&section, &material, true, 2.3)
     }
 

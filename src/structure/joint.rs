@@ -82,9 +82,8 @@ impl Turned {
 
     /// By how much the springs are turned.
     pub fn slips(&self, nodes: &Ends, y: &[Vector3<f64>; 2]) -> [Vector3<f64>; 2] {
-        let slip = |a: &Vector3<f64>, r: &Vector3<f64>, y: &Vector3<f64>| {
-            y - a.zip_map(r, |a, r| (1.0 - a) * r)
-        };
+        let slip =
+            |a: &Vector3<f64>, r: &Vector3<f64>, y: &Vector3<f64>| y - a.zip_map(r, |a, r| (1.0 - a) * r);
         [slip(&self.carried[0], &nodes.r1, &y[0]), slip(&self.carried[1], &nodes.r2, &y[1])]
     }
 
@@ -145,5 +144,9 @@ impl Turned {
 /// GJ/L, EI/L about y and z of a member, Nm.
 fn per_length(member: &Stiffness) -> Vector3<f64> {
     // The moments against both ends turned alike and against each other differ by 2 EI/L, with shear or without.
-    Vector3::new(member.torsion, 0.5 * (member.xz.near - member.xz.far), 0.5 * (member.xy.near - member.xy.far))
+    Vector3::new(
+        member.torsion,
+        0.5 * (member.xz.near - member.xz.far),
+        0.5 * (member.xy.near - member.xy.far),
+    )
 }

@@ -141,7 +141,8 @@ pub struct Resisting<'a> {
 impl Resisting<'_> {
     /// Deformations whose squares sum up to twice the strain energy.
     fn deformations(&self, v: &[f64]) -> Vec<f64> {
-        let mut all = Vec::with_capacity(DOFS * (self.stiffness.len() + self.joints.len()) + self.springs.len());
+        let mut all =
+            Vec::with_capacity(DOFS * (self.stiffness.len() + self.joints.len()) + self.springs.len());
         for ((axes, slot), k) in self.model.axes().iter().zip(self.system.slots()).zip(self.stiffness) {
             let nodes = Ends::read(v, slot.start, slot.end).local(axes);
             let Link::Turned(j) = slot.link else {

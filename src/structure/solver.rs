@@ -493,15 +493,22 @@ impl<'m> Solver<'m> {
     /// Twice the strain energy of displacements, from the deformations of the elements.
     pub fn twice_energy(&self, u: &[f64]) -> f64 {
         let axes = self.model.axes();
-        let members: f64 =
-            (0..axes.len()).map(|m| self.stiffness[m].twice_energy(&self.ends(m, u).beam, axes[m].length)).sum();
+        let members: f64 = (0..axes.len())
+            .map(|m| self.stiffness[m].twice_energy(&self.ends(m, u).beam, axes[m].length))
+            .sum();
         if self.springs.is_empty() && self.joints.is_empty() {
             return members;
         }
-        let joints: f64 = self.system.turned().iter().zip(&self.joints).map(|(turned, springs)| {
-            let slips = self.ends(turned.member, u).slips;
-            (0..2).map(|i| springs[i].dot(&slips[i].component_mul(&slips[i]))).sum::<f64>()
-        }).sum();
+        let joints: f64 = self
+            .system
+            .turned()
+            .iter()
+            .zip(&self.joints)
+            .map(|(turned, springs)| {
+                let slips = self.ends(turned.member, u).slips;
+                (0..2).map(|i| springs[i].dot(&slips[i].component_mul(&slips[i]))).sum::<f64>()
+            })
+            .sum();
         let springs: f64 = self.springs.iter().map(|&(unknown, k)| k * u[unknown] * u[unknown]).sum();
         members + joints + springs
     }

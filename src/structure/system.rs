@@ -70,7 +70,8 @@ impl System {
     /// [`TooLarge`].
     pub fn new(model: &FrameModel) -> Result<Self, TooLarge> {
         let members = model.members();
-        let jointed: Vec<usize> = (0..members.len()).filter(|&m| members[m].kind.joints().is_some()).collect();
+        let jointed: Vec<usize> =
+            (0..members.len()).filter(|&m| members[m].kind.joints().is_some()).collect();
         let nodes = model.nodes().len() + jointed.len();
         // Nodes, and after them the members with joints, by the pairs that are coupled.
         let own = |j: usize| (model.nodes().len() + j) as u32;

@@ -7,6 +7,7 @@ mod cli_basics;
 mod cli_combinations;
 mod cli_config;
 mod cli_objectives;
+mod cli_requirements;
 mod cli_run;
 mod cli_sittings;
 mod cli_user;

@@ -3,7 +3,9 @@
 use crate::support::columns;
 use nalgebra::{Matrix2, Vector2, Vector3};
 use quadrille::random::{self, Rng};
-use quadrille::structure::model::{FrameParts, LoadCase, Material, Member, MemberKind, NodalLoad, Support, UniformLoad};
+use quadrille::structure::model::{
+    FrameParts, LoadCase, Material, Member, MemberKind, NodalLoad, Support, UniformLoad,
+};
 use quadrille::structure::section::Section;
 use quadrille::structure::{FrameAnalysis, FrameError, FrameModel, FrameResult, Order, file, frame};
 use std::f64::consts::{PI, TAU};
@@ -139,7 +141,13 @@ impl Skew {
         let (force, moment, load) = (force * scale, moment * scale, load * scale);
         let nodal = NodalLoad { node: 1, load: [force.x, force.y, force.z, moment.x, moment.y, moment.z] };
         let uniform = UniformLoad { member: 0, force_per_length: load.into() };
-        let material = Material { youngs_modulus: E, shear_modulus: 80e9, density: 0.0, strength: 235e6, thermal_expansion: 1.2e-5 };
+        let material = Material {
+            youngs_modulus: E,
+            shear_modulus: 80e9,
+            density: 0.0,
+            strength: 235e6,
+            thermal_expansion: 1.2e-5,
+        };
         let parts = FrameParts {
             nodes: vec![[0.0; 3], (x * length).into()],
             members: vec![Member { start: 0, end: 1, up: z.into(), section: 0, kind: MemberKind::RIGID }],
@@ -227,10 +235,22 @@ fn chain(count: u32, supports: Vec<Support>, loaded: u32) -> FrameParts {
     FrameParts {
         nodes: (0..=count).map(|i| [step * f64::from(i), 0.0, 0.0]).collect(),
         members: (0..count)
-            .map(|i| Member { start: i, end: i + 1, up: [0.0, 0.0, 1.0], section: 0, kind: MemberKind::RIGID })
+            .map(|i| Member {
+                start: i,
+                end: i + 1,
+                up: [0.0, 0.0, 1.0],
+                section: 0,
+                kind: MemberKind::RIGID,
+            })
             .collect(),
         sections: vec![Section::rectangular_hollow(0.1, 0.18, 0.006).unwrap()],
-        material: Material { youngs_modulus: E, shear_modulus: 80e9, density: 0.0, strength: 235e6, thermal_expansion: 1.2e-5 },
+        material: Material {
+            youngs_modulus: E,
+            shear_modulus: 80e9,
+            density: 0.0,
+            strength: 235e6,
+            thermal_expansion: 1.2e-5,
+        },
         shear_deformation: false,
         supports,
         load_cases: vec![LoadCase { nodal: vec![load], ..LoadCase::default() }],

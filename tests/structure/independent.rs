@@ -42,11 +42,13 @@ fn matrices(parts: &FrameParts, member: &Member, l: f64) -> (DMatrix<f64>, DMatr
     let s = &parts.sections[member.section as usize];
     let (e, g) = (parts.material.youngs_modulus, parts.material.shear_modulus);
     let (mut k, mut kg) = (DMatrix::zeros(12, 12), DMatrix::zeros(12, 12));
-    let mut set = |m: &mut DMatrix<f64>, i: usize, j: usize, v: f64| {
+    let set = |m: &mut DMatrix<f64>, i: usize, j: usize, v: f64| {
         m[(i, j)] = v;
         m[(j, i)] = v;
     };
-    for (i, stiffness) in [(0, e * s.area / l), (3, if member.kind == MemberKind::Truss { 0.0 } else { g * s.j / l })] {
+    for (i, stiffness) in
+        [(0, e * s.area / l), (3, if member.kind == MemberKind::Truss { 0.0 } else { g * s.j / l })]
+    {
         set(&mut k, i, i, stiffness);
         set(&mut k, i + 6, i + 6, stiffness);
         set(&mut k, i, i + 6, -stiffness);
@@ -61,7 +63,8 @@ fn matrices(parts: &FrameParts, member: &Member, l: f64) -> (DMatrix<f64>, DMatr
     }
     // v with θz, and w with −θy.
     for (v, turn, sign, i, shear) in [(1, 5, 1.0, s.iz, s.asy), (2, 4, -1.0, s.iy, s.asz)] {
-        let phi = if parts.shear_deformation && shear > 0.0 { 12.0 * e * i / (g * shear * l * l) } else { 0.0 };
+        let phi =
+            if parts.shear_deformation && shear > 0.0 { 12.0 * e * i / (g * shear * l * l) } else { 0.0 };
         let c = e * i / (1.0 + phi);
         let bend = [12.0 * c / l.powi(3), 6.0 * c / l.powi(2), (4.0 + phi) * c / l, (2.0 - phi) * c / l];
         let string = [1.2 / l, 0.1, 2.0 * l / 15.0, -l / 30.0];
@@ -123,10 +126,16 @@ impl Dense {
             }
             let (k, g) = matrices(parts, member, length);
             let mut q = Vector3::zeros();
-            case.uniform.iter().filter(|u| u.member as usize == m).for_each(|u| q += Vector3::from(u.force_per_length));
+            case.uniform
+                .iter()
+                .filter(|u| u.member as usize == m)
+                .for_each(|u| q += Vector3::from(u.force_per_length));
             q.z -= case.gravity * parts.material.density * s.area;
             let mut local = turn * q;
-            case.pressure.iter().filter(|p| p.member as usize == m).for_each(|p| local.z -= p.force_per_length);
+            case.pressure
+                .iter()
+                .filter(|p| p.member as usize == m)
+                .for_each(|p| local.z -= p.force_per_length);
             let kelvin: f64 =
                 case.temperature.iter().filter(|t| t.member as usize == m).map(|t| t.kelvin).sum();
             let initial = -e * s.area * parts.material.thermal_expansion * kelvin;

@@ -39,6 +39,7 @@ fn parts(nodes: Vec<[f64; 3]>, members: &[(u32, u32)], up: [f64; 3], supports: V
             asy: 0.0,
             asz: 0.0,
             shear: None,
+            shape: None,
         }],
         material: Material {
             youngs_modulus: E,
@@ -113,7 +114,8 @@ fn beam_with_end_springs() {
         assert!((found.member_forces[0].start.my - moment).abs() < 1e-7 * q * length * length, "{what}");
         assert!((found.member_forces[1].end.my - moment).abs() < 1e-7 * q * length * length, "{what}");
         // What the springs give: M / k; of a hinge qL³/24EI.
-        let slip = if kappa > 0.0 { moment / (kappa * EI / length) } else { q * length.powi(3) / (24.0 * EI) };
+        let slip =
+            if kappa > 0.0 { moment / (kappa * EI / length) } else { q * length.powi(3) / (24.0 * EI) };
         let [start, _] = found.joint_rotations[0].1;
         close(start[1].abs(), slip, 1e-8, &what);
     }
@@ -149,7 +151,11 @@ fn column_with_end_springs_buckles_at_the_root_of_its_equation() {
         let (mut low, mut high) = (0.5 * PI + 1e-12, PI);
         for _ in 0..100 {
             let middle = 0.5 * (low + high);
-            if kappa * middle.sin() + 2.0 * middle * middle.cos() > 0.0 { low = middle } else { high = middle }
+            if kappa * middle.sin() + 2.0 * middle * middle.cos() > 0.0 {
+                low = middle
+            } else {
+                high = middle
+            }
         }
         let critical = EI * (2.0 * low / length).powi(2);
         close(solve(&model, Order::First, 1).buckling_factors[0], critical, 2e-5, &format!("κ = {kappa}"));
@@ -176,7 +182,13 @@ fn hinges_do_not_take_the_euler_load_from_a_bar() {
 #[test]
 fn three_hinged_portal() {
     let (span, height, q) = (8.0, 4.0, 3e3);
-    let nodes = vec![[0.0, 0.0, 0.0], [0.0, 0.0, height], [0.5 * span, 0.0, height], [span, 0.0, height], [span, 0.0, 0.0]];
+    let nodes = vec![
+        [0.0, 0.0, 0.0],
+        [0.0, 0.0, height],
+        [0.5 * span, 0.0, height],
+        [span, 0.0, height],
+        [span, 0.0, 0.0],
+    ];
     let mut supports: Vec<Support> = (0..5).map(|n| Support::fixed(n, IN_PLANE)).collect();
     supports.extend([0, 4].map(|n| Support::fixed(n, [true, true, true, true, false, true])));
     let mut model = parts(nodes, &[(0, 1), (1, 2), (2, 3), (3, 4)], [0.6, 0.0, 0.8], supports);
@@ -202,7 +214,14 @@ fn three_hinged_portal() {
 #[test]
 fn truss_by_the_method_of_joints() {
     let (a, p) = (3.0, 9e4);
-    let nodes = vec![[0.0, 0.0, 0.0], [a, 0.0, 0.0], [2.0 * a, 0.0, 0.0], [a, 0.0, a], [2.0 * a, 0.0, a], [3.0 * a, 0.0, 0.0]];
+    let nodes = vec![
+        [0.0, 0.0, 0.0],
+        [a, 0.0, 0.0],
+        [2.0 * a, 0.0, 0.0],
+        [a, 0.0, a],
+        [2.0 * a, 0.0, a],
+        [3.0 * a, 0.0, 0.0],
+    ];
     let bars = [(0, 1), (1, 2), (2, 5), (3, 4), (0, 3), (1, 3), (3, 2), (2, 4), (4, 5)];
     let mut supports: Vec<Support> =
         (0..6).map(|n| Support::fixed(n, [false, true, false, false, false, false])).collect();
@@ -213,8 +232,17 @@ fn truss_by_the_method_of_joints() {
     push(&mut model, 1, [0.0, 0.0, -p, 0.0, 0.0, 0.0]);
     let found = solve(&model, Order::First, 0);
     let root = 2f64.sqrt();
-    let expected =
-        [2.0 / 3.0, 2.0 / 3.0, 1.0 / 3.0, -1.0 / 3.0, -2.0 * root / 3.0, 1.0, -root / 3.0, 1.0 / 3.0, -root / 3.0];
+    let expected = [
+        2.0 / 3.0,
+        2.0 / 3.0,
+        1.0 / 3.0,
+        -1.0 / 3.0,
+        -2.0 * root / 3.0,
+        1.0,
+        -root / 3.0,
+        1.0 / 3.0,
+        -root / 3.0,
+    ];
     for (m, share) in expected.into_iter().enumerate() {
         let forces = &found.member_forces[m];
         close(forces.start.n, share * p, 1e-9, &format!("member {m}"));
@@ -229,8 +257,11 @@ fn truss_by_the_method_of_joints() {
 fn a_pretensioned_string_carries_by_its_geometry() {
     let (half, tension, p) = (4.0, 2e5, 100.0);
     let nodes = vec![[-half, 0.0, 0.0], [0.0, 0.0, 0.0], [half, 0.0, 0.0]];
-    let supports =
-        vec![Support::fixed(0, CLAMPED), Support::fixed(1, [false, true, false, false, false, false]), Support::fixed(2, CLAMPED)];
+    let supports = vec![
+        Support::fixed(0, CLAMPED),
+        Support::fixed(1, [false, true, false, false, false, false]),
+        Support::fixed(2, CLAMPED),
+    ];
     let mut model = parts(nodes, &[(0, 1), (1, 2)], [0.0, 0.0, 1.0], supports);
     model.members.iter_mut().for_each(|m| m.kind = MemberKind::Truss);
     // Something that resists a little, or the first order is a mechanism.
@@ -389,7 +420,11 @@ fn agree(model: &FrameParts, share: f64, what: &str) {
         let largest = result.displacements.iter().flatten().fold(0.0f64, |a, x| a.max(x.abs()));
         for (n, d) in result.displacements.iter().enumerate() {
             for i in 0..6 {
-                assert!((d[i] - u[6 * n + i]).abs() < share * largest, "{what}, {:?}, node {n}", result.order);
+                assert!(
+                    (d[i] - u[6 * n + i]).abs() < share * largest,
+                    "{what}, {:?}, node {n}",
+                    result.order
+                );
             }
         }
         let of = |f: &quadrille::structure::forces::MemberForces| -> [f64; 12] {
@@ -458,7 +493,8 @@ fn a_roof_agrees_with_a_second_assembly() {
 #[test]
 fn limits_of_the_springs() {
     for seed in 0..4 {
-        for (spring, limit) in [(Joint::Relative(1e13), Joint::Rigid), (Joint::Relative(1e-13), Joint::HINGE)] {
+        for (spring, limit) in [(Joint::Relative(1e13), Joint::Rigid), (Joint::Relative(1e-13), Joint::HINGE)]
+        {
             let of = |joint: Joint| {
                 let mut model = random_tower(seed);
                 let end = EndJoint { torsion: Joint::Rigid, bending_y: joint, bending_z: joint };
@@ -491,9 +527,11 @@ fn turned_and_renumbered_the_answer_is_the_same() {
         close(there.max_displacement.0, here.max_displacement.0, 1e-8, "turned");
         let n = here.max_displacement.1.0 as usize;
         let expected = turn * nalgebra::Vector3::from_row_slice(&here.displacements[n][..3]);
-        (0..3).for_each(|d| assert!((there.displacements[n][d] - expected[d]).abs() < 1e-8 * expected.norm()));
+        (0..3)
+            .for_each(|d| assert!((there.displacements[n][d] - expected[d]).abs() < 1e-8 * expected.norm()));
         let mut other = random_frame(seed);
-        other.load_cases[0] = LoadCase { nodal: other.load_cases[0].nodal.clone(), gravity: 9.81, ..LoadCase::default() };
+        other.load_cases[0] =
+            LoadCase { nodal: other.load_cases[0].nodal.clone(), gravity: 9.81, ..LoadCase::default() };
         let here = solve(&other, Order::Second, 2);
         let (numbered, place) = renumbered(&other, seed);
         let there = solve(&numbered, Order::Second, 2);

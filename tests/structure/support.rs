@@ -4,7 +4,9 @@
 use nalgebra::{Rotation3, Vector3};
 use quadrille::geometry::{Panel, Pattern};
 use quadrille::random;
-use quadrille::structure::model::{FrameParts, LoadCase, Material, Member, MemberKind, NodalLoad, Support, UniformLoad};
+use quadrille::structure::model::{
+    FrameParts, LoadCase, Material, Member, MemberKind, NodalLoad, Support, UniformLoad,
+};
 use quadrille::structure::section::Section;
 
 /// A grid of `m` × `n` panels over a plan of `width` × `depth` m, at heights `z(x, y)`, x and y from −1 to 1.
@@ -177,7 +179,13 @@ pub fn random_tower(seed: u32) -> FrameParts {
 }
 
 fn steel() -> Material {
-    Material { youngs_modulus: 210e9, shear_modulus: 80.77e9, density: 7850.0, strength: 355e6, thermal_expansion: 1.2e-5 }
+    Material {
+        youngs_modulus: 210e9,
+        shear_modulus: 80.77e9,
+        density: 7850.0,
+        strength: 355e6,
+        thermal_expansion: 1.2e-5,
+    }
 }
 
 /// The same model turned about the origin, supports clamped so that they need no turning; with the turn.
@@ -236,6 +244,7 @@ pub fn columns(count: u32, elements: u32, epsilon: f64) -> FrameParts {
             asy: 0.0,
             asz: 0.0,
             shear: None,
+            shape: None,
         }],
         material: steel(),
         shear_deformation: false,
@@ -271,7 +280,9 @@ impl Bend {
         let step = 5.0 / f64::from(self.elements);
         FrameParts {
             nodes: (0..=self.elements).map(|i| direction.map(|d| d * step * f64::from(i))).collect(),
-            members: (0..self.elements).map(|i| Member { start: i, end: i + 1, up, section: 0, kind: MemberKind::RIGID }).collect(),
+            members: (0..self.elements)
+                .map(|i| Member { start: i, end: i + 1, up, section: 0, kind: MemberKind::RIGID })
+                .collect(),
             sections: vec![Section::rectangular_hollow(0.1, 0.18, 0.006).unwrap()],
             material: steel(),
             shear_deformation: false,

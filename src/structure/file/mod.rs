@@ -57,16 +57,22 @@ pub enum FileError {
         needed: &'static [&'static str],
     },
     /// Neither `section` nor `sections`, both, or an empty list.
-    #[error("give either `section`, of all members, or `sections`, a list of which `members[…].section` names one by its number")]
+    #[error(
+        "give either `section`, of all members, or `sections`, a list of which `members[…].section` names one by its number"
+    )]
     WhichSection,
     /// A member that names a section where there is no list.
-    #[error("members[{member}].section: there is one `section` for all; give a list, `sections`, to choose from")]
+    #[error(
+        "members[{member}].section: there is one `section` for all; give a list, `sections`, to choose from"
+    )]
     SectionOfMember {
         /// The member.
         member: usize,
     },
     /// A member that names none where there are several.
-    #[error("members[{member}]: missing key `section`: which of the {count} `sections` it has, counted from 0")]
+    #[error(
+        "members[{member}]: missing key `section`: which of the {count} `sections` it has, counted from 0"
+    )]
     NoSection {
         /// The member.
         member: usize,
@@ -74,13 +80,17 @@ pub enum FileError {
         count: usize,
     },
     /// A beam without a height direction.
-    #[error("members[{member}]: missing key `up`, the direction of the section's height; only a truss needs none")]
+    #[error(
+        "members[{member}]: missing key `up`, the direction of the section's height; only a truss needs none"
+    )]
     NoUp {
         /// The member.
         member: usize,
     },
     /// A release of what has no bending.
-    #[error("members[{member}].{key}: a truss is not joined against rotation at all; leave it out, or leave out `kind`")]
+    #[error(
+        "members[{member}].{key}: a truss is not joined against rotation at all; leave it out, or leave out `kind`"
+    )]
     ReleasedTruss {
         /// The member.
         member: usize,

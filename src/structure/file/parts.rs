@@ -1,11 +1,11 @@
 //! Members, supports and loads of a model file.
 
+use super::FileError;
 use crate::json::Object;
 use crate::structure::model::{
     LoadCase, Member, MemberKind, NodalLoad, PressureLoad, Settlement, Support, TemperatureLoad, UniformLoad,
 };
 use crate::structure::params::EndJointParams;
-use super::FileError;
 use nalgebra::Vector3;
 use serde::Deserialize;
 
@@ -40,7 +40,9 @@ impl FileMember {
             (None, Some(count)) => return Err(FileError::NoSection { member: m, count }),
         };
         let releases = [("start_release", &self.start_release), ("end_release", &self.end_release)];
-        if self.kind == FileKind::Truss && let Some((key, _)) = releases.iter().find(|(_, r)| r.is_some()) {
+        if self.kind == FileKind::Truss
+            && let Some((key, _)) = releases.iter().find(|(_, r)| r.is_some())
+        {
             return Err(FileError::ReleasedTruss { member: m, key });
         }
         for (key, release) in releases {
@@ -56,7 +58,8 @@ impl FileMember {
         let kind = match self.kind {
             FileKind::Truss => MemberKind::Truss,
             FileKind::Beam => MemberKind::Beam(
-                releases.map(|(_, release)| release.as_ref().map_or(EndJointParams::default(), |r| r.0).joint(1)),
+                releases
+                    .map(|(_, release)| release.as_ref().map_or(EndJointParams::default(), |r| r.0).joint(1)),
             ),
         };
         Ok(Member { start: self.start, end: self.end, up, section, kind })

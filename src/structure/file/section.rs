@@ -91,7 +91,8 @@ impl FileSection {
         let of = |value: Option<f64>| value.unwrap_or(0.0);
         let wrong = |source| FileError::Section { place: place.into(), source };
         let section = match self.kind {
-            Kind::Box => Section::rectangular_hollow(of(self.width), of(self.height), of(self.thickness)).map_err(wrong)?,
+            Kind::Box => Section::rectangular_hollow(of(self.width), of(self.height), of(self.thickness))
+                .map_err(wrong)?,
             Kind::Round => Section::round(of(self.diameter)).map_err(wrong)?,
             Kind::Tube => Section::tube(of(self.diameter), of(self.thickness)).map_err(wrong)?,
             Kind::Properties => Section {
@@ -104,6 +105,7 @@ impl FileSection {
                 asy: of(self.Asy),
                 asz: of(self.Asz),
                 shear: None,
+                shape: None,
             },
         };
         section.check().map_err(wrong)?;

@@ -48,7 +48,13 @@ impl GridshellModel {
                     nodes.push([p.x, p.y, p.z]);
                     (nodes.len() - 1) as u32
                 };
-                members.push(Member { start, end, up: [up.x, up.y, up.z], section: 0, kind: MemberKind::RIGID });
+                members.push(Member {
+                    start,
+                    end,
+                    up: [up.x, up.y, up.z],
+                    section: 0,
+                    kind: MemberKind::RIGID,
+                });
                 edge.push(e as u32);
                 start = end;
             }

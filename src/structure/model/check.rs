@@ -1,8 +1,6 @@
 //! What a model must satisfy.
 
-use super::{
-    Direction, Frame3, FrameParts, LoadCase, Material, Member, MemberKind, ModelError, Spring,
-};
+use super::{Direction, Frame3, FrameParts, LoadCase, Material, Member, MemberKind, ModelError, Spring};
 use nalgebra::Vector3;
 
 /// That all are numbers.

@@ -111,7 +111,9 @@ pub enum ModelError {
         member: usize,
     },
     /// A moment on a node that has no rotation.
-    #[error("{place}: node {node} joins nothing but trusses, which take no moment: leave the moment out, or let a beam end there")]
+    #[error(
+        "{place}: node {node} joins nothing but trusses, which take no moment: leave the moment out, or let a beam end there"
+    )]
     MomentOnTrusses {
         /// Path of the load.
         place: String,
@@ -119,7 +121,9 @@ pub enum ModelError {
         node: u32,
     },
     /// A displacement prescribed where nothing is fixed.
-    #[error("node {node}: a displacement is prescribed in {direction:?}, where it is not fixed: fix it there too")]
+    #[error(
+        "node {node}: a displacement is prescribed in {direction:?}, where it is not fixed: fix it there too"
+    )]
     NotFixed {
         /// The node.
         node: u32,

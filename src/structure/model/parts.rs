@@ -91,8 +91,7 @@ pub struct EndJoint {
 
 impl EndJoint {
     /// Rigid about all three.
-    pub const RIGID: Self =
-        Self { torsion: Joint::Rigid, bending_y: Joint::Rigid, bending_z: Joint::Rigid };
+    pub const RIGID: Self = Self { torsion: Joint::Rigid, bending_y: Joint::Rigid, bending_z: Joint::Rigid };
 
     /// About x, y and z.
     pub fn about(&self) -> [Joint; 3] {
@@ -271,4 +270,3 @@ pub struct FrameParts {
     /// Load cases.
     pub load_cases: Vec<LoadCase>,
 }
-

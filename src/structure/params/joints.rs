@@ -98,9 +98,13 @@ impl EndJointParams {
             let (name, value) = match joint {
                 JointParams::Word(_) => return None,
                 JointParams::Bending { ei_per_l } if key != "torsion" => ("ei_per_l", ei_per_l),
-                JointParams::Bending { .. } => return Some((key, "of torsion it is gj_per_l, not ei_per_l".into())),
+                JointParams::Bending { .. } => {
+                    return Some((key, "of torsion it is gj_per_l, not ei_per_l".into()));
+                }
                 JointParams::Torsion { gj_per_l } if key == "torsion" => ("gj_per_l", gj_per_l),
-                JointParams::Torsion { .. } => return Some((key, "of bending it is ei_per_l, not gj_per_l".into())),
+                JointParams::Torsion { .. } => {
+                    return Some((key, "of bending it is ei_per_l, not gj_per_l".into()));
+                }
                 JointParams::Absolute { nm_per_rad } => ("nm_per_rad", nm_per_rad),
             };
             let allowed = value >= 0.0 && value.is_finite();
