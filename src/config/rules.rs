@@ -3,7 +3,7 @@
 use super::error::Problem;
 use super::path::KeyPath;
 use super::schema::suggestion;
-use super::{Config, VERSION, seeds};
+use super::{Config, VERSION};
 use crate::domain::params::{Corners, LoopParams};
 use crate::geometry::params::{Density, RelaxKind};
 use crate::io::{Inputs, ReadError};
@@ -450,9 +450,6 @@ impl Rules<'_> {
         if tokens.min > tokens.max {
             let message = format!("found min = {} and max = {}; allowed: min ≤ max", tokens.min, tokens.max);
             self.refuse("search.tokens", message);
-        }
-        if let Err(problems) = seeds::strings(&config.search, self.inputs) {
-            self.problems.extend(problems);
         }
         for (i, region) in config.search.frozen.regions_m.iter().enumerate().filter(|(_, r)| r.len() < 3) {
             let message = format!("found {} points; allowed: a polygon of 3 or more", region.len());
