@@ -105,6 +105,7 @@
 pub mod config;
 pub mod domain;
 pub mod evolve;
+pub mod expression;
 pub mod files;
 pub mod geometry;
 pub mod grammar;

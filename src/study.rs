@@ -4,6 +4,7 @@
 //! designer's commands with whole [`Design`]s.
 
 mod frozen;
+mod loads;
 mod remarks;
 mod supports;
 mod symmetry;
@@ -103,7 +104,20 @@ pub enum StudyError {
         /// Its image.
         v: f64,
     },
-    /// A point of a support that names nothing.
+    /// A load that the symmetries of the config do not carry into itself.
+    #[error(
+        "domain.symmetries: `{symmetry}` makes two designs the same that are images of each other, but {key} does not have it: \
+         {reason}; leave it out of domain.symmetries (topology.symmetry needs no symmetric loads), or make the load symmetric"
+    )]
+    LoadImage {
+        /// Key of the load.
+        key: String,
+        /// The symmetry.
+        symmetry: &'static str,
+        /// Where it fails.
+        reason: String,
+    },
+    /// A point of a support or a load that names nothing.
     #[error("{key}: {reason}")]
     SupportPoint {
         /// Its key.
@@ -165,7 +179,9 @@ impl StudyError {
                 _ => "surface.kind".to_owned(),
             },
             Self::Domain(error) => error.key(&config.domain),
-            Self::Supports { .. } | Self::SupportImage { .. } => "domain.symmetries".to_owned(),
+            Self::Supports { .. } | Self::SupportImage { .. } | Self::LoadImage { .. } => {
+                "domain.symmetries".to_owned()
+            }
             Self::SupportPoint { key, .. } => key.clone(),
             Self::Initial(error) => error.key(&config.topology),
             Self::Mesh(_) => "topology.initial".to_owned(),

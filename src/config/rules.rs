@@ -268,7 +268,7 @@ impl Rules<'_> {
         match support.nodes().as_slice() {
             [] => {
                 let message = "missing; allowed: \"boundary\", \"corners\", \"all\", or instead loop = 0, 1, …, \
-                               nodes_near_m or sides_near_m = [[x, y], …]";
+                               nodes_near_m, sides_near_m or inside_near_m = [[x, y], …]";
                 self.refuse(key.key("at"), message);
             }
             [(first, _), (second, _), ..] => {

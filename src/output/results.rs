@@ -329,7 +329,9 @@ impl Developed {
             return Vec::new();
         };
         let nodes = frame.supported().map(|node| node.0 as usize);
-        nodes.map(|n| (frame.nodes()[n], frame.fixed()[n][0] || frame.fixed()[n][1])).collect()
+        let has_spring = |n: usize| frame.springs().iter().any(|s| s.node as usize == n && s.direction < 2);
+        let is_held = |n: usize| frame.fixed()[n][0] || frame.fixed()[n][1] || has_spring(n);
+        nodes.map(|n| (frame.nodes()[n], is_held(n))).collect()
     }
 
     /// The files of `designs/`.

@@ -270,20 +270,19 @@ fn is_left_to_it(case: &LoadCase) -> bool {
 fn cases(design: &Handed<'_>) -> Vec<Vec<Cell>> {
     let of = |(k, (name, load)): (usize, &(&str, &LoadParams))| {
         let permanent = |what: &str, kind: &str| row![*name, what, "Permanent", PERMANENT, kind, Cell::Empty];
+        let variable = |what: &str, kind: &str| row![*name, what, "Variable", VARIABLE, kind, "Short"];
         match load {
             LoadParams::Gravity { .. } if is_left_to_it(&design.model.load_cases()[k]) => {
                 permanent("self weight of the members", "Self weight")
             }
             LoadParams::Gravity { .. } => permanent("self weight of the members, as line forces", "Others"),
             LoadParams::Area { .. } => permanent("on the panels, at their corners", "Others"),
-            LoadParams::Projected { .. } => row![
-                *name,
-                "on the plan projection of the panels, at their corners",
-                "Variable",
-                VARIABLE,
-                "Snow",
-                "Short",
-            ],
+            LoadParams::Projected { .. } => {
+                variable("on the plan projection of the panels, at their corners", "Snow")
+            }
+            LoadParams::Pressure { .. } => variable("normal to the panels, at their corners", "Wind"),
+            LoadParams::Temperature { .. } => variable("members warmer or colder", "Temperature"),
+            LoadParams::Point { .. } => variable("forces at points", "Others"),
         }
     };
     design.cases.iter().enumerate().map(of).collect()
