@@ -12,6 +12,7 @@ mod frame_support;
 use frame_support::grid_shell;
 use quadrille::config;
 use quadrille::geometry::Pattern;
+use quadrille::structure::forces::BetweenAll;
 use quadrille::structure::gridshell::{GridshellModel, analyse};
 use quadrille::structure::params::{HeightParams, StructureParams};
 use quadrille::structure::solver::Solver;
@@ -128,7 +129,9 @@ fn print_parts(solver: &mut Solver<'_>, pattern: &Pattern, params: &StructurePar
     println!(
         "  {:<14} {:.3}",
         "member forces",
-        median(9, || drop(solver.member_forces(&x[..n], Some(&axial), &loads))) / factor
+        median(9, || drop(
+            solver.member_forces(&x[..n], BetweenAll { axial: Some(&axial), initial: &[], loads: &loads })
+        )) / factor
     );
 }
 

@@ -47,7 +47,7 @@
 //! # A frame under combinations of loads
 //!
 //! ```
-//! use quadrille::structure::model::{LoadCase, Material, Member, NodalLoad, Support};
+//! use quadrille::structure::model::{LoadCase, Material, Member, MemberKind, NodalLoad, Support};
 //! use quadrille::structure::section::Section;
 //! use quadrille::{FrameAnalysis, FrameModel, FrameParts, Order, structure};
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -55,11 +55,11 @@
 //! let push = |load| LoadCase { nodal: vec![NodalLoad { node: 1, load }], ..LoadCase::default() };
 //! let model = FrameModel::new(FrameParts {
 //!     nodes: vec![[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]],
-//!     members: vec![Member { start: 0, end: 1, up: [0.0, 0.0, 1.0], section: 0 }],
+//!     members: vec![Member { start: 0, end: 1, up: [0.0, 0.0, 1.0], section: 0, kind: MemberKind::RIGID }],
 //!     sections: vec![Section::round(0.1)?],
-//!     material: Material { youngs_modulus: 210e9, shear_modulus: 81e9, density: 7850.0, strength: 355e6 },
+//!     material: Material { youngs_modulus: 210e9, shear_modulus: 81e9, density: 7850.0, strength: 355e6, thermal_expansion: 1.2e-5 },
 //!     shear_deformation: false,
-//!     supports: vec![Support { node: 0, fixed: [true; 6] }],
+//!     supports: vec![Support::fixed(0, [true; 6])],
 //!     load_cases: vec![push([0.0, 0.0, -1e3, 0.0, 0.0, 0.0]), push([0.0, 1e3, 0.0, 0.0, 0.0, 0.0])],
 //! })?;
 //! let analysis = FrameAnalysis { order: Order::First, buckling_modes: 0 };

@@ -91,8 +91,9 @@ mod tests {
             ..GenerationRow::default()
         };
         let columns = Columns { objectives: vec!["mass_kg".into()], minimised: 1, metrics: vec![] };
-        let table =
-            |columns| String::from_utf8(generations(std::slice::from_ref(&row), columns).to_csv()).unwrap();
+        let table = |columns: &Columns| {
+            String::from_utf8(generations(std::slice::from_ref(&row), columns).to_csv()).unwrap()
+        };
         let text = table(&columns);
         assert!(text.lines().next().unwrap().ends_with("empty_slots,best_mass_kg,mean_mass_kg"), "{text}");
         assert_eq!(text.lines().nth(1).unwrap(), "0,48,0,3,0,,60,12,0,0,0,0,0,1.5,");

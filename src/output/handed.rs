@@ -61,6 +61,7 @@ impl<'a> Handed<'a> {
                 .map(|(member, force_per_length)| UniformLoad { member, force_per_length })
                 .collect(),
             gravity,
+            ..LoadCase::default()
         }
     }
 

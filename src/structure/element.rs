@@ -14,7 +14,7 @@
 //! Sources: Przemieniecki (1968), *Theory of Matrix Structural Analysis*, §5.6 (stiffness with shear, φ = 12EI/GAsL²)
 //! and §15 (geometric stiffness: the plain cubic Hermite matrix, no axial and no torsional term).
 
-use super::model::{Frame3, FrameModel, Material};
+use super::model::{Frame3, FrameModel, Material, MemberKind};
 use super::section::Section;
 use nalgebra::{Matrix3, Vector3};
 
@@ -29,6 +29,15 @@ pub struct Blocks {
     pub p: Matrix3<f64>,
     /// Moment at a node from the other end's rotation.
     pub q: Matrix3<f64>,
+}
+
+impl Blocks {
+    /// The whole matrix, for u₁, r₁, u₂, r₂.
+    pub fn grid(&self) -> [[Matrix3<f64>; 4]; 4] {
+        let Self { d, s, p, q } = *self;
+        let t = s.transpose();
+        [[d, s, -d, s], [t, p, -t, q], [-d, -s, d, -s], [t, q, -t, p]]
+    }
 }
 
 /// The distinct stiffness numbers of one element, local axes (N/m, N, Nm).
@@ -86,8 +95,16 @@ impl Stiffness {
 
     /// Of member `m` of a model with the given sections.
     pub fn of_member(model: &FrameModel, sections: &[Section], m: usize) -> Self {
-        let section = &sections[model.members()[m].section as usize];
-        Self::new(section, model.material(), model.shear_deformation(), model.axes()[m].length)
+        let member = &model.members()[m];
+        let section = &sections[member.section as usize];
+        let beam = Self::new(section, model.material(), model.shear_deformation(), model.axes()[m].length);
+        if member.kind == MemberKind::Truss { beam.axial_only() } else { beam }
+    }
+
+    /// What is left of it without bending and torsion.
+    fn axial_only(self) -> Self {
+        let none = Bending { shift: 0.0, couple: 0.0, near: 0.0, far: 0.0 };
+        Self { axial: self.axial, torsion: 0.0, xy: none, xz: none }
     }
 
     /// Its blocks in global axes.
@@ -114,6 +131,13 @@ pub fn geometric(axes: &Frame3) -> Blocks {
         p: across * (2.0 * length / 15.0),
         q: across * (-length / 30.0),
     }
+}
+
+/// The same of a bar that stays straight: a string.
+pub fn geometric_of_truss(axes: &Frame3) -> Blocks {
+    let across = Matrix3::identity() - axes.x * axes.x.transpose();
+    let none = Matrix3::zeros();
+    Blocks { d: across / axes.length, s: none, p: none, q: none }
 }
 
 /// Displacement and rotation of the two ends of an element, global axes.
@@ -279,6 +303,13 @@ pub fn geometric_actions(x: &Vector3<f64>, length: f64, tension: f64, e: &Ends) 
     }
 }
 
+/// The same of a bar that stays straight.
+#[inline]
+pub fn geometric_actions_of_truss(x: &Vector3<f64>, length: f64, tension: f64, e: &Ends) -> EndActions {
+    let across = e.shift - x * x.dot(&e.shift);
+    EndActions { force: across * (tension / length), m1: Vector3::zeros(), m2: Vector3::zeros() }
+}
+
 /// Nodal forces equal to a uniform load `q` (N/m, global): force on each end and moment on the start (the end has
 /// the opposite): qL/2 and x × q L²/12.
 pub fn uniform_load(axes: &Frame3, q: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
@@ -298,7 +329,13 @@ mod tests {
 
     fn stiffness() -> Stiffness {
         let section = Section::rectangular_hollow(0.1, 0.2, 0.008).unwrap();
-        let material = Material { youngs_modulus: 210e9, shear_modulus: 80e9, density: 0.0, strength: 1.0 };
+        let material = Material {
+            youngs_modulus: 210e9,
+            shear_modulus: 80e9,
+            density: 0.0,
+            strength: 1.0,
+            thermal_expansion: 0.0,
+        };
         Stiffness::new(&section, &material, true, 2.3)
     }
 

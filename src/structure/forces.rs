@@ -1,8 +1,10 @@
 //! Stress resultants of members and what they use of the strength.
 
-use super::element::{self, EndActions, Ends};
+use super::element::{EndActions, Ends};
+use super::model::{NodeId, Spring};
 use super::section::Section;
 use super::solver::{Refined, Solver};
+use super::system::{DOFS, Link};
 use nalgebra::Vector3;
 
 /// Stress resultants on the cut face whose outward normal is local +x, local axes (N, Nm); N > 0 is tension.
@@ -47,68 +49,87 @@ pub struct Utilisation {
     pub von_mises: f64,
 }
 
+/// What else than the ends decides the forces of one member.
+#[derive(Clone, Copy, Debug)]
+pub struct Between {
+    /// N of second order; none in first.
+    pub axial: Option<f64>,
+    /// N if its ends were held: of a change of temperature.
+    pub initial: f64,
+    /// Uniform load, N/m, global.
+    pub load: Vector3<f64>,
+}
+
+/// The same of all members.
+#[derive(Clone, Copy, Debug)]
+pub struct BetweenAll<'a> {
+    /// N of second order; none in first.
+    pub axial: Option<&'a [f64]>,
+    /// N if the ends were held; empty where nothing changes its temperature.
+    pub initial: &'a [f64],
+    /// Uniform load on each member that the displacements were found with, N/m, global.
+    pub loads: &'a [Vector3<f64>],
+}
+
+impl BetweenAll<'_> {
+    /// Of member `m`.
+    pub fn of(&self, m: usize) -> Between {
+        Between {
+            axial: self.axial.map(|a| a[m]),
+            initial: self.initial.get(m).copied().unwrap_or(0.0),
+            load: self.loads[m],
+        }
+    }
+}
+
 impl Solver<'_> {
-    /// The forces on every member: (k + N kg) u − fixed-end forces; `axial` = N for second order.
-    ///
-    /// `member_loads` are those the displacements were found with (N/m, global).
-    pub fn member_forces(
-        &self,
-        u: &[f64],
-        axial: Option<&[f64]>,
-        member_loads: &[Vector3<f64>],
-    ) -> Vec<MemberForces> {
-        (0..self.model().members().len())
-            .map(|m| self.forces_of(m, u, axial.map(|a| a[m]), &member_loads[m]))
-            .collect()
+    /// The forces on every member: (k + N kg) u − fixed-end forces.
+    pub fn member_forces(&self, u: &[f64], between: BetweenAll<'_>) -> Vec<MemberForces> {
+        (0..self.model().members().len()).map(|m| self.forces_of(m, u, between.of(m))).collect()
     }
 
     /// The same of displacements in two parts.
-    pub fn member_forces_of(
-        &self,
-        found: &Refined,
-        axial: Option<&[f64]>,
-        member_loads: &[Vector3<f64>],
-    ) -> Vec<MemberForces> {
-        let members = self.model().axes().iter().zip(self.system().slots()).enumerate();
-        members
-            .map(|(m, (axes, slot))| {
-                self.forces_at(m, &found.ends(slot, axes), axial.map(|a| a[m]), &member_loads[m])
-            })
-            .collect()
+    pub fn member_forces_of(&self, found: &Refined, between: BetweenAll<'_>) -> Vec<MemberForces> {
+        let count = self.model().members().len();
+        (0..count).map(|m| self.forces_at(m, &self.refined_ends(m, found).beam, between.of(m))).collect()
     }
 
-    /// The same of member `m` alone, given its N and its load.
-    pub fn forces_of(&self, m: usize, u: &[f64], axial: Option<f64>, q: &Vector3<f64>) -> MemberForces {
-        let axes = &self.model().axes()[m];
-        let slot = self.system().slots()[m];
-        self.forces_at(m, &Ends::read(u, slot.start, slot.end).local(axes), axial, q)
+    /// The same of member `m` alone.
+    pub fn forces_of(&self, m: usize, u: &[f64], between: Between) -> MemberForces {
+        self.forces_at(m, &self.ends(m, u).beam, between)
     }
 
-    /// The same, given its ends in local axes.
-    fn forces_at(&self, m: usize, ends: &Ends, axial: Option<f64>, q: &Vector3<f64>) -> MemberForces {
+    /// The same, given the ends of the beam in local axes.
+    fn forces_at(&self, m: usize, ends: &Ends, Between { axial, initial, load: q }: Between) -> MemberForces {
         let axes = &self.model().axes()[m];
-        let EndActions { mut force, mut m1, mut m2 } = self.stiffness()[m].apply_local(ends);
-        if let Some(tension) = axial {
-            let g = element::geometric_actions(&Vector3::x(), axes.length, tension, ends);
-            force += g.force;
-            m1 += g.m1;
-            m2 += g.m2;
-        }
-        let load = Vector3::new(axes.x.dot(q), axes.y.dot(q), axes.z.dot(q));
+        let EndActions { force, m1, m2 } = self.end_actions(m, ends, axial);
+        let load = Vector3::new(axes.x.dot(&q), axes.y.dot(&q), axes.z.dot(&q));
         let half = load * (0.5 * axes.length);
-        let fixed = Vector3::x().cross(&load) * (axes.length * axes.length / 12.0);
+        let fixed = match self.system().slots()[m].link {
+            Link::Truss => Vector3::zeros(),
+            Link::Rigid | Link::Turned(_) => Vector3::x().cross(&load) * (axes.length * axes.length / 12.0),
+        };
         let (f1, f2) = (force - half, -force - half);
         let (m1, m2) = (m1 - fixed, m2 + fixed);
+        // Not + 0, which would take the sign from a −0.
+        let with_initial = |n: f64| if initial == 0.0 { n } else { n + initial };
         MemberForces {
-            start: Resultants { n: -f1.x, vy: -f1.y, vz: -f1.z, mt: -m1.x, my: -m1.y, mz: -m1.z },
-            end: Resultants { n: f2.x, vy: f2.y, vz: f2.z, mt: m2.x, my: m2.y, mz: m2.z },
+            start: Resultants {
+                n: with_initial(-f1.x),
+                vy: -f1.y,
+                vz: -f1.z,
+                mt: -m1.x,
+                my: -m1.y,
+                mz: -m1.z,
+            },
+            end: Resultants { n: with_initial(f2.x), vy: f2.y, vz: f2.z, mt: m2.x, my: m2.y, mz: m2.z },
             load,
             length: axes.length,
         }
     }
 
-    /// Forces of the members (and held springs there are none) on every node, less the loads: the reactions, global,
-    /// six a node in elimination order. On free unknowns it is the residual of equilibrium.
+    /// Forces of the members, and of the springs of supports, on every node, less the loads: the reactions where it is
+    /// held, global, six a node in elimination order. On free unknowns it is the residual of equilibrium.
     pub fn reactions(&self, u: &[f64], axial: Option<&[f64]>, f: &[f64]) -> Vec<f64> {
         let mut reactions = Vec::with_capacity(f.len());
         self.reactions_into(u, axial, f, &mut reactions);
@@ -121,6 +142,23 @@ impl Solver<'_> {
         reactions.extend_from_slice(f);
         self.subtract_forces(u, axial, reactions);
         reactions.iter_mut().for_each(|r| *r = -*r);
+    }
+}
+
+impl Solver<'_> {
+    /// What the support of a node does to the structure, N and Nm, given all [`Solver::reactions`]; `None` where there
+    /// is neither a fixed direction nor a spring.
+    pub fn support_reaction(&self, node: NodeId, u: &[f64], reactions: &[f64]) -> [Option<f64>; DOFS] {
+        let first = self.system().first(node.0);
+        let springs = self.model().springs();
+        let fixed = &self.model().fixed()[node.0 as usize];
+        std::array::from_fn(|d| {
+            let spring = |s: &Spring| (s.node, s.direction).cmp(&(node.0, d));
+            match springs.binary_search_by(spring) {
+                Ok(at) => Some(-springs[at].stiffness * u[first + d]),
+                Err(_) => fixed[d].then(|| reactions[first + d]),
+            }
+        })
     }
 }
 

@@ -1,7 +1,8 @@
 //! A whole analysis of one model under one combination: what `quadrille frame` prints.
 
+use super::action::Action;
 use super::buckling;
-use super::forces::{MemberForces, Utilisation};
+use super::forces::{BetweenAll, MemberForces, Utilisation};
 use super::mechanism::{self, FreeMotion};
 use super::model::{FrameModel, MemberId, NodeId};
 use super::second_order::{LeastStep, Lost, Reason};
@@ -62,6 +63,8 @@ pub struct FrameResult {
     pub total_reaction: [f64; 3],
     /// Positive buckling factors, ascending; at most as many as asked for.
     pub buckling_factors: Vec<f64>,
+    /// By how much the ends of each member with joints are turned against their nodes, about its x, y and z (rad).
+    pub joint_rotations: Vec<(MemberId, [[f64; 3]; 2])>,
     /// Decides which utilisation counts.
     pub order: Order,
     /// How many buckling factors were asked for.
@@ -182,31 +185,30 @@ pub fn combined(
     solver.set_sections(model.sections())?;
     let mut loads = Vec::new();
     solver.member_loads(combination, &mut loads);
-    let mut f = vec![0.0; solver.system().unknowns()];
-    solver.load_vector(combination, &loads, &mut f);
-    let (first, rounding) = solver.first_order(&f);
+    let action = solver.action(combination, &loads);
+    let (first, rounding) = solver.first_order(&action);
     finite(&first.u)?;
     exact(rounding.error)?;
-    balanced(solver.imbalance(&first, None, &f))?;
+    balanced(solver.imbalance(&first, None, &action))?;
     let mut axial = Vec::new();
-    solver.axial_forces_of(&first, &mut axial);
-    silence_refined(&solver, &first.u, rounding, &mut axial);
+    solver.axial_forces_of(&first, &action.initial, &mut axial);
+    silence_refined(&solver, &first.u, rounding, &action.initial, &mut axial);
     let buckling_factors = buckling::factors(&mut solver, &axial, analysis.buckling_modes)?;
     let result = if analysis.order == Order::Second {
         if rounding.uncorrected > CORRECTABLE {
             return Err(FrameError::Inexact(rounding.uncorrected));
         }
         let u = solver
-            .second_order(&f, &axial, SECOND_ORDER_TOLERANCE, LEAST_STEP)
+            .second_order(&action, &axial, SECOND_ORDER_TOLERANCE, LEAST_STEP)
             .map_err(|lost| unstable(&mut solver, &first.u, &axial, lost))?;
         finite(&u.u)?;
-        solver.axial_forces_of(&u, &mut axial);
+        solver.axial_forces_of(&u, &action.initial, &mut axial);
         // The factor is that of K + Kg at the answer, which has proved it stable.
-        exact(solver.error_of(&u, Some(&axial), &f))?;
-        balanced(solver.imbalance(&u, Some(&axial), &f))?;
-        collect(&solver, &u, Some(&axial), &loads, &f)
+        exact(solver.error_of(&u, Some(&axial), &action))?;
+        balanced(solver.imbalance(&u, Some(&axial), &action))?;
+        collect(&solver, &u, Some(&axial), &loads, &action)
     } else {
-        collect(&solver, &first, None, &loads, &f)
+        collect(&solver, &first, None, &loads, &action)
     };
     Ok(FrameResult {
         buckling_factors,
@@ -228,16 +230,18 @@ fn balanced(imbalance: f64) -> Result<(), FrameError> {
     if imbalance <= BALANCE { Ok(()) } else { Err(FrameError::IllConditioned(imbalance)) }
 }
 
-/// Sets to zero the axial forces that are rounding noise of the displacements and rotations: no force, no buckling.
-pub fn silence(solver: &Solver<'_>, u: &[f64], axial: &mut [f64]) {
+/// Sets to zero the axial forces that are rounding noise of the displacements and rotations, and of the `initial` forces
+/// (empty: none): no force, no buckling.
+pub fn silence(solver: &Solver<'_>, u: &[f64], initial: &[f64], axial: &mut [f64]) {
     let members = solver.system().slots().iter().zip(solver.stiffness()).zip(solver.model().axes());
-    for (((slot, k), axes), n) in members.zip(axial) {
+    let initial = initial.iter().copied().chain(std::iter::repeat(0.0));
+    for ((((slot, k), axes), n), initial) in members.zip(axial).zip(initial) {
         let largest = |from: usize| u[from..from + 3].iter().fold(0.0f64, |a, v| a.max(v.abs()));
         let moved = largest(slot.start) + largest(slot.end);
         let turned = largest(slot.start + 3) + largest(slot.end + 3);
         // What cancels in the equilibrium of its ends.
         let by_turning = k.xy.couple + k.xz.couple + k.torsion / axes.length;
-        if n.abs() <= 256.0 * f64::EPSILON * (k.axial * moved + by_turning * turned) {
+        if n.abs() <= 256.0 * f64::EPSILON * (k.axial * moved + by_turning * turned + initial.abs()) {
             *n = 0.0;
         }
     }
@@ -245,9 +249,9 @@ pub fn silence(solver: &Solver<'_>, u: &[f64], axial: &mut [f64]) {
 
 /// The same where displacements are refined and what rounding leaves of them is known: in a floppy frame an N that does
 /// not count beside the displacements may be known all the same, and buckle it.
-fn silence_refined(solver: &Solver<'_>, u: &[f64], rounding: Rounding, axial: &mut [f64]) {
+fn silence_refined(solver: &Solver<'_>, u: &[f64], rounding: Rounding, initial: &[f64], axial: &mut [f64]) {
     let found = axial.to_vec();
-    silence(solver, u, axial);
+    silence(solver, u, initial, axial);
     let energy = rounding.error.max(256.0 * f64::EPSILON).powi(2) * solver.twice_energy(u);
     for ((n, found), k) in axial.iter_mut().zip(found).zip(solver.stiffness()) {
         // No more of N can be wrong than has the energy of what is left.
@@ -275,7 +279,7 @@ fn collect(
     found: &Refined,
     axial: Option<&[f64]>,
     loads: &[Vector3<f64>],
-    f: &[f64],
+    action: &Action,
 ) -> FrameResult {
     let model = solver.model();
     let displacements = by_node(solver.system(), &found.u, model.nodes().len());
@@ -286,22 +290,17 @@ fn collect(
             largest = (size(d), NodeId(n as u32));
         }
     }
-    let reactions: Vec<f64> = solver.residual(found, axial, f).into_iter().map(|left| -left).collect();
-    let pushes = by_node(solver.system(), &reactions, model.nodes().len());
-    let reactions: Vec<(NodeId, [Option<f64>; 6])> = model
-        .supported()
-        .map(|node| {
-            let (push, fixed) = (&pushes[node.0 as usize], &model.fixed()[node.0 as usize]);
-            (node, std::array::from_fn(|d| fixed[d].then_some(push[d])))
-        })
-        .collect();
+    let pushes: Vec<f64> = solver.residual(found, axial, &action.f).into_iter().map(|left| -left).collect();
+    let reactions: Vec<(NodeId, [Option<f64>; 6])> =
+        model.supported().map(|node| (node, solver.support_reaction(node, &found.u, &pushes))).collect();
     let mut total_reaction = [0.0; 3];
     for (_, reaction) in &reactions {
         for (total, push) in total_reaction.iter_mut().zip(reaction) {
             *total += push.unwrap_or(0.0);
         }
     }
-    let member_forces = solver.member_forces_of(found, axial, loads);
+    let between = BetweenAll { axial, initial: &action.initial, loads };
+    let member_forces = solver.member_forces_of(found, between);
     let [bending, axial_energy] = energies(solver, &member_forces);
     let bending_dominates = bending > axial_energy;
     let strength = model.material().strength;
@@ -321,6 +320,15 @@ fn collect(
         max_displacement: largest,
         total_reaction,
         buckling_factors: Vec::new(),
+        joint_rotations: solver
+            .system()
+            .turned()
+            .iter()
+            .map(|turned| {
+                let slips = solver.refined_ends(turned.member, found).slips;
+                (MemberId(turned.member as u32), slips.map(|slip| [slip.x, slip.y, slip.z]))
+            })
+            .collect(),
         order: Order::First,
         modes_asked: 0,
         bending_dominates,

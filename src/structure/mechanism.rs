@@ -8,15 +8,14 @@
 //! is exact however soft the part is (a chain of n elements has motions n⁴ times softer than its elements, and is sound).
 //! It needs no stiffness and is always asked.
 //!
-//! Members without stiffness in bending or torsion can move freely in other ways. There, inverse iteration with
+//! Members without stiffness in bending or torsion, trusses and hinges can move freely in other ways. There, inverse iteration with
 //! K + ε D (D: diag K, nowhere nothing; positive definite whatever K is) gives the softest motions; of their
 //! combinations that is taken whose strain energy, summed from the deformations of the elements, is least. For a true mechanism that sum is the square of a rounding error.
 
 use super::element::{Ends, Stiffness};
 use super::factor::Factor;
-use super::model::Direction;
-use super::model::{FrameModel, NodeId};
-use super::system::{DOFS, System};
+use super::model::{Direction, FrameModel, NodeId, Spring};
+use super::system::{DOFS, Link, System};
 use crate::random;
 use nalgebra::{DMatrix, Matrix6, SVD, SymmetricEigen, Vector3, Vector6};
 
@@ -30,9 +29,6 @@ pub struct FreeMotion {
     /// Its whole motion, ux … rz, scaled to 1 in that direction.
     pub motion: [f64; 6],
 }
-
-const DIRECTIONS: [Direction; 6] =
-    [Direction::Ux, Direction::Uy, Direction::Uz, Direction::Rx, Direction::Ry, Direction::Rz];
 
 /// The shift ε of the inverse iteration, relative to the diagonal.
 const SHIFT: f64 = 1e-10;
@@ -50,6 +46,10 @@ const HELD: f64 = 1e-14;
 
 /// The motion of a part of the model as a whole that no support holds, if there is one.
 pub fn rigid_motion(model: &FrameModel, system: &System) -> Option<FreeMotion> {
+    let holds = |node: u32, direction: usize| {
+        let spring = |spring: &Spring| (spring.node, spring.direction).cmp(&(node, direction));
+        model.fixed()[node as usize][direction] || model.springs().binary_search_by(spring).is_ok()
+    };
     parts(model).iter().find_map(|part| {
         let positions = part.iter().map(|&n| Vector3::from(model.nodes()[n as usize]));
         let center = positions.clone().sum::<Vector3<f64>>() / part.len() as f64;
@@ -58,7 +58,7 @@ pub fn rigid_motion(model: &FrameModel, system: &System) -> Option<FreeMotion> {
         let mut held = Matrix6::zeros();
         for &n in part {
             let arm = (Vector3::from(model.nodes()[n as usize]) - center) / size;
-            for (d, _) in model.fixed()[n as usize].iter().enumerate().filter(|(_, fixed)| **fixed) {
+            for d in (0..DOFS).filter(|&d| holds(n, d)) {
                 let axis = Vector3::ith(d % 3, 1.0);
                 let turn = if d < 3 { arm.cross(&axis) } else { axis };
                 let shift = if d < 3 { axis } else { Vector3::zeros() };
@@ -124,14 +124,46 @@ fn parts(model: &FrameModel) -> Vec<Vec<u32>> {
     parts
 }
 
+/// All that resists a motion.
+pub struct Resisting<'a> {
+    /// The model.
+    pub model: &'a FrameModel,
+    /// Its equation system.
+    pub system: &'a System,
+    /// Stiffness numbers of each member.
+    pub stiffness: &'a [Stiffness],
+    /// Springs of each member with joints.
+    pub joints: &'a [[Vector3<f64>; 2]],
+    /// Springs of supports: unknown and stiffness.
+    pub springs: &'a [(usize, f64)],
+}
+
+impl Resisting<'_> {
+    /// Deformations whose squares sum up to twice the strain energy.
+    fn deformations(&self, v: &[f64]) -> Vec<f64> {
+        let mut all =
+            Vec::with_capacity(DOFS * (self.stiffness.len() + self.joints.len()) + self.springs.len());
+        for ((axes, slot), k) in self.model.axes().iter().zip(self.system.slots()).zip(self.stiffness) {
+            let nodes = Ends::read(v, slot.start, slot.end).local(axes);
+            let Link::Turned(j) = slot.link else {
+                all.extend(k.deformations(&nodes, axes.length));
+                continue;
+            };
+            let turned = &self.system.turned()[j as usize];
+            let y = turned.read(v);
+            all.extend(k.deformations(&turned.ends(&nodes, &y), axes.length));
+            let slips = turned.slips(&nodes, &y);
+            let springs = self.joints[j as usize].iter().flatten();
+            all.extend(springs.zip(slips.iter().flatten()).map(|(k, slip)| k.sqrt() * slip));
+        }
+        all.extend(self.springs.iter().map(|&(unknown, k)| k.sqrt() * v[unknown]));
+        all
+    }
+}
+
 /// The motion that costs next to nothing, if there is one. Uses `factor` as room.
-pub fn free_motion(
-    model: &FrameModel,
-    system: &System,
-    stiffness: &[Stiffness],
-    matrix: &[f64],
-    factor: &mut Factor,
-) -> Option<FreeMotion> {
+pub fn free_motion(structure: &Resisting<'_>, matrix: &[f64], factor: &mut Factor) -> Option<FreeMotion> {
+    let &Resisting { model, system, stiffness, .. } = structure;
     let diagonal = weights(model, system, stiffness, matrix);
     let mut shifted = matrix.to_vec();
     for (i, d) in diagonal.iter().enumerate() {
@@ -159,15 +191,9 @@ pub fn free_motion(
         orthonormalise(&mut block, &diagonal);
     }
     // Of their combinations, the one that deforms the elements least.
-    let mut deformed = DMatrix::zeros(DOFS * stiffness.len(), block.len() / n);
-    for (column, v) in block.chunks(n).enumerate() {
-        for (m, ((axes, slot), k)) in model.axes().iter().zip(system.slots()).zip(stiffness).enumerate() {
-            let ends = Ends::read(v, slot.start, slot.end).local(axes);
-            for (row, d) in k.deformations(&ends, axes.length).into_iter().enumerate() {
-                deformed[(DOFS * m + row, column)] = d;
-            }
-        }
-    }
+    let deformed: Vec<f64> = block.chunks(n).flat_map(|v| structure.deformations(v)).collect();
+    let columns = block.len() / n;
+    let deformed = DMatrix::from_vec(deformed.len() / columns, columns, deformed);
     let parts = SVD::try_new(deformed.qr().r(), false, true, f64::EPSILON, 10_000)?;
     let shares = parts.v_t?;
     let (least, stretch) = parts.singular_values.argmin();
@@ -210,8 +236,9 @@ fn weights(model: &FrameModel, system: &System, stiffness: &[Stiffness], matrix:
             levers[node] = levers[node].max(k.axial * axes.length * axes.length);
         }
     }
-    for (node, lever) in weights.chunks_mut(DOFS).zip(levers) {
-        let (shifts, turns) = node.split_at_mut(DOFS / 2);
+    for (node, (unknowns, lever)) in weights.chunks_mut(DOFS).zip(levers).enumerate() {
+        let (shifts, turns) =
+            unknowns.split_at_mut(if system.is_rotation(DOFS * node) { 0 } else { DOFS / 2 });
         for (kind, lever) in [(shifts, 0.0), (turns, LEAST * lever)] {
             let least = LEAST * kind.iter().fold(lever, |a: f64, w| a.max(*w));
             kind.iter_mut().for_each(|w| *w = w.max(least));
@@ -239,5 +266,5 @@ pub fn largest(model: &FrameModel, system: &System, v: &[f64]) -> FreeMotion {
     let first = system.first(node);
     let unit = v[first + d];
     let motion = std::array::from_fn(|i| if unit == 0.0 { 0.0 } else { v[first + i] / unit });
-    FreeMotion { node: NodeId(node), direction: DIRECTIONS[d], motion }
+    FreeMotion { node: NodeId(node), direction: Direction::ALL[d], motion }
 }

@@ -4,6 +4,7 @@
 //! FrameModel → System (numbering, symbolic factor) → Solver (assembled, factorised) → first / second order, buckling
 //! ```
 
+pub mod action;
 pub mod buckling;
 mod columns;
 pub mod element;
@@ -12,6 +13,7 @@ pub mod file;
 pub mod forces;
 mod frame;
 pub mod gridshell;
+pub mod joint;
 pub mod mechanism;
 pub mod model;
 pub mod params;

@@ -1,5 +1,9 @@
 //! The `[structure]` table of the config. Defaults are the paper's gridshell.
 
+mod joints;
+
+pub use joints::{EndJointParams, JointParams, JointWord};
+
 use super::model::Direction;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

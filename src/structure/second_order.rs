@@ -17,6 +17,7 @@
 //! real eigenvalue above 1 though K + Kg is definite. The largest is found by Arnoldi's method with the factor at hand. A
 //! state at which it is small is taken at once; where it is not, the load is followed to it.
 
+use super::action::Action;
 use super::solver::{Refined, Solver};
 use crate::random;
 use nalgebra::{DMatrix, DVector};
@@ -142,9 +143,17 @@ pub struct Aim {
 
 impl Solver<'_> {
     /// First or second order with the factor at hand, be it of K, of K + Kg or of the K of similar sections, for
-    /// several columns at once, each accelerated by its own last step (Anderson 1965, depth 1). `u` comes in as a first
-    /// guess and goes out as the displacements. Gives false if they are not in sight.
-    pub fn iterate(&mut self, f: &[f64], u: &mut [f64], aim: Aim, room: &mut Room) -> bool {
+    /// several columns at once, each accelerated by its own last step (Anderson 1965, depth 1). `initial`: the axial forces
+    /// of each column if all ends were held. `u` comes in as a first guess and goes out as the displacements. Gives false
+    /// if they are not in sight.
+    pub fn iterate(
+        &mut self,
+        f: &[f64],
+        initial: &[&[f64]],
+        u: &mut [f64],
+        aim: Aim,
+        room: &mut Room,
+    ) -> bool {
         let n = self.system().unknowns();
         room.image.resize(f.len(), 0.0);
         room.change.resize(f.len(), 0.0);
@@ -152,15 +161,15 @@ impl Solver<'_> {
         let mut first = 0.0;
         for step in 0..MOST {
             room.change.copy_from_slice(f);
-            for (left, u) in room.change.chunks_mut(n).zip(u.chunks(n)) {
-                self.axial_forces(u, &mut room.axial);
+            for ((left, u), initial) in room.change.chunks_mut(n).zip(u.chunks(n)).zip(initial) {
+                self.axial_forces(u, initial, &mut room.axial);
                 self.subtract_forces(u, aim.second_order.then_some(room.axial.as_slice()), left);
             }
             self.solve_as_factorised(&mut room.change);
             for ((image, change), u) in room.image.iter_mut().zip(&room.change).zip(u.iter()) {
                 *image = u + change;
             }
-            let now = self.largest_change(n, room);
+            let now = self.largest_change(n, initial, room);
             if now.settled(before, aim.tolerance) {
                 u.copy_from_slice(&room.image);
                 return u.iter().all(|v| v.is_finite());
@@ -184,15 +193,15 @@ impl Solver<'_> {
         false
     }
 
-    fn largest_change(&self, n: usize, room: &mut Room) -> Change {
+    fn largest_change(&self, n: usize, initial: &[&[f64]], room: &mut Room) -> Change {
         let largest = |v: &[f64]| v.iter().fold(0.0f64, |a, v| if v.is_nan() { *v } else { a.max(v.abs()) });
         let mut worst = Change::NONE;
-        for (change, image) in room.change.chunks(n).zip(room.image.chunks(n)) {
+        for ((change, image), initial) in room.change.chunks(n).zip(room.image.chunks(n)).zip(initial) {
             let moved = [largest(change), largest(image)];
             // N is linear in u.
-            self.axial_forces(change, &mut room.axial);
+            self.axial_forces(change, &[], &mut room.axial);
             let change = largest(&room.axial);
-            self.axial_forces(image, &mut room.axial);
+            self.axial_forces(image, initial, &mut room.axial);
             let ratio = |change: f64, size: f64| if change == 0.0 { 0.0 } else { change / size };
             worst = worst.worse(Change([ratio(moved[0], moved[1]), ratio(change, largest(&room.axial))]));
         }
@@ -207,20 +216,20 @@ impl Solver<'_> {
     /// [`Lost`] where the path of equilibrium ends before.
     pub fn second_order(
         &mut self,
-        f: &[f64],
+        action: &Action,
         first: &[f64],
         tolerance: f64,
         least: LeastStep,
     ) -> Result<Refined, Lost> {
-        let at_once = match self.equilibrium(f, first.to_vec(), tolerance, MOST_AT_ONCE) {
+        let at_once = match self.equilibrium(action, first.to_vec(), tolerance, MOST_AT_ONCE) {
             Ok(state) if state.feedback <= MILD => return Ok(state.found),
             Ok(state) => Some(state),
             Err(_) => None,
         };
-        let followed = self.follow(f, first, tolerance, least)?;
+        let followed = self.follow(action, first, tolerance, least)?;
         Ok(match at_once {
             // The same state; with its own last digits.
-            Some(state) if self.is_same(&state.found.u, &followed.u, SAME_STATE) => state.found,
+            Some(state) if self.is_same(&state.found.u, &followed.u, SAME_STATE, action.noise) => state.found,
             _ => followed,
         })
     }
@@ -243,7 +252,7 @@ impl Solver<'_> {
             axial.extend(basis[step].iter().zip(&weights).map(|(y, w)| y / w));
             self.minus_geometric(&axial, u, &mut image);
             self.solve_as_factorised(&mut image);
-            self.axial_forces(&image, &mut axial);
+            self.axial_forces(&image, &[], &mut axial);
             next = DVector::from_iterator(m, axial.iter().zip(&weights).map(|(n, w)| n * w));
             // Twice, so that it stays orthogonal to rounding.
             for _ in 0..2 {
@@ -271,7 +280,7 @@ impl Solver<'_> {
     /// The equilibrium under a load, from a guess of N.
     fn equilibrium(
         &mut self,
-        f: &[f64],
+        action: &Action,
         mut axial: Vec<f64>,
         tolerance: f64,
         most: usize,
@@ -281,25 +290,26 @@ impl Solver<'_> {
         let mut mixing = Mixing::default();
         for _ in 0..most {
             self.factorise_shifted(&axial, 1.0).map_err(|_| Reason::PastCritical)?;
-            let mut u = f.to_vec();
+            let mut u = self.lifted(action, Some(&axial));
             self.solve_as_factorised(&mut u);
+            action.add_settled(&mut u);
             let found = Refined { rest: vec![0.0; u.len()], u };
-            let found = self.refined(found, &axial, f, tolerance, &mut next);
+            let found = self.refined(found, &axial, action, tolerance, &mut next);
             let largest = next.iter().fold(0.0f64, |a, n| a.max(n.abs()));
             let change = largest_difference(&next, &axial);
             let settled = change <= tolerance * largest
                 || (change > SHRINKS * change_before
-                    && before
-                        .as_ref()
-                        .is_some_and(|before| self.is_same(&found.u, before, tolerance.max(ENERGY))));
+                    && before.as_ref().is_some_and(|before| {
+                        self.is_same(&found.u, before, tolerance.max(ENERGY), action.noise)
+                    }));
             if settled {
                 self.factorise_shifted(&next, 1.0).map_err(|_| Reason::PastCritical)?;
-                let mut correction = self.residual(&found, Some(&next), f);
+                let mut correction = self.residual(&found, Some(&next), &action.f);
                 self.solve_as_factorised(&mut correction);
                 // As long as it is one of rounding; else N has changed with it.
                 let refined = found.plus(&correction);
-                let found =
-                    if self.is_same(&refined.u, &found.u, tolerance.max(ENERGY)) { refined } else { found };
+                let is_same = self.is_same(&refined.u, &found.u, tolerance.max(ENERGY), action.noise);
+                let found = if is_same { refined } else { found };
                 let feedback = self.feedback(&found.u);
                 if feedback >= 1.0 {
                     // An equilibrium, but beyond a limit point: no load from nothing leads there.
@@ -319,18 +329,18 @@ impl Solver<'_> {
         &mut self,
         mut found: Refined,
         axial: &[f64],
-        f: &[f64],
+        action: &Action,
         tolerance: f64,
         next: &mut Vec<f64>,
     ) -> Refined {
         let mut before = Vec::new();
-        self.axial_forces_of(&found, next);
+        self.axial_forces_of(&found, &action.initial, next);
         for _ in 0..MOST_CORRECTIONS {
-            let mut correction = self.residual(&found, Some(axial), f);
+            let mut correction = self.residual(&found, Some(axial), &action.f);
             self.solve_as_factorised(&mut correction);
             found = found.plus(&correction);
             std::mem::swap(&mut before, next);
-            self.axial_forces_of(&found, next);
+            self.axial_forces_of(&found, &action.initial, next);
             let largest = next.iter().fold(0.0f64, |a, n| a.max(n.abs()));
             if largest_difference(next, &before) <= 0.1 * tolerance * largest {
                 break;
@@ -339,25 +349,25 @@ impl Solver<'_> {
         found
     }
 
-    /// Whether two displacements differ by no more than a share of the first, in the norm of strain energy.
-    fn is_same(&self, u: &[f64], v: &[f64], share: f64) -> bool {
+    /// Whether two displacements differ by no more than a share of the first, in the norm of strain energy, or by no more
+    /// energy than `noise`.
+    fn is_same(&self, u: &[f64], v: &[f64], share: f64, noise: f64) -> bool {
         let change: Vec<f64> = u.iter().zip(v).map(|(u, v)| u - v).collect();
-        self.twice_energy(&change) <= share * share * self.twice_energy(u)
+        self.twice_energy(&change) <= share * share * self.twice_energy(u) + noise
     }
 
     /// The load from nothing to the whole, in steps that halve where there is no equilibrium in sight.
     fn follow(
         &mut self,
-        f: &[f64],
+        action: &Action,
         first: &[f64],
         tolerance: f64,
         LeastStep(least): LeastStep,
     ) -> Result<Refined, Lost> {
-        let scaled = |share: f64, v: &[f64]| v.iter().map(|v| share * v).collect::<Vec<f64>>();
         let largest = |v: &[f64]| v.iter().fold(0.0f64, |a, v| a.max(v.abs()));
         let mut share = 0.0;
         let mut axial = vec![0.0; first.len()];
-        let mut u = vec![0.0; f.len()];
+        let mut u = vec![0.0; action.f.len()];
         // How fast the displacements grow with the share: at first, and in the last step.
         let (mut slow, mut fast) = (0.0, 0.0);
         // How N grows with the share: at first as in first order, then as in the step before.
@@ -369,7 +379,7 @@ impl Solver<'_> {
             let guess = axial.iter().zip(&growth).map(|(n, g)| n + (next - share) * g).collect();
             let (tolerance, most) =
                 if next == 1.0 { (tolerance, MOST_AT_ONCE) } else { (ON_THE_WAY, MOST_IN_STEP) };
-            let state = self.equilibrium(&scaled(next, f), guess, tolerance, most);
+            let state = self.equilibrium(&action.scaled(next), guess, tolerance, most);
             // What is far from the state before may lie on another path.
             let jumps = |state: &State| state.feedback > MILD && state.feedback > feedback + GROWS;
             match state {

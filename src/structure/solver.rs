@@ -8,12 +8,13 @@
 //! 72 matrix entries, Kg(N) changes in every step so that its assembly would cost several products, and the residual of
 //! the members' own deformations keeps the digits that cancel in a row of an assembled K.
 
-use super::element::{self, EndActions, Ends, Stiffness};
+use super::action::Action;
+use super::element::{self, Blocks, EndActions, Ends, Stiffness};
 use super::factor::{Factor, NotPositive};
 use super::mechanism::{self, FreeMotion};
 use super::model::{Frame3, FrameModel};
 use super::section::Section;
-use super::system::{DOFS, Slot, System, TooLarge};
+use super::system::{DOFS, Link, Slot, System, TooLarge};
 use nalgebra::Vector3;
 use nalgebra_sparse::CscMatrix;
 
@@ -26,6 +27,13 @@ pub struct Solver<'m> {
     system: System,
     sections: Vec<Section>,
     stiffness: Vec<Stiffness>,
+    /// The springs of each member with joints, at its start and end, Nm/rad.
+    joints: Vec<[Vector3<f64>; 2]>,
+    /// The springs of supports: unknown and stiffness.
+    springs: Vec<(usize, f64)>,
+    /// Whether members, joints and springs of supports resist so much that only supports can be missing, given that the
+    /// sections do.
+    is_firm: bool,
     matrix: Vec<f64>,
     /// Whether `matrix` is K with the sections in use.
     assembled: bool,
@@ -49,17 +57,28 @@ pub struct Refined {
 }
 
 impl Refined {
-    /// The ends of a member in its local axes.
-    pub fn ends(&self, slot: &Slot, axes: &Frame3) -> Ends {
-        Ends::local_of(&self.u, &self.rest, slot.start, slot.end, axes)
-    }
-
     /// The sum with a correction.
     pub fn plus(&self, correction: &[f64]) -> Self {
         let small: Vec<f64> = self.rest.iter().zip(correction).map(|(rest, c)| rest + c).collect();
         let u: Vec<f64> = self.u.iter().zip(&small).map(|(u, s)| u + s).collect();
         let rest = self.u.iter().zip(&u).zip(&small).map(|((old, new), s)| s - (new - old)).collect();
         Self { u, rest }
+    }
+}
+
+/// The ends of a member in its local axes.
+#[derive(Clone, Copy, Debug)]
+pub struct BothEnds {
+    /// Of the beam itself.
+    pub beam: Ends,
+    /// By how much it is turned against its nodes, at its start and its end; nothing where it is joined rigidly.
+    pub slips: [Vector3<f64>; 2],
+}
+
+impl BothEnds {
+    #[inline]
+    fn rigid(nodes: Ends) -> Self {
+        Self { beam: nodes, slips: [Vector3::zeros(); 2] }
     }
 }
 
@@ -106,6 +125,13 @@ impl<'m> Solver<'m> {
             model,
             sections: Vec::new(),
             stiffness: Vec::with_capacity(model.members().len()),
+            joints: Vec::new(),
+            springs: model
+                .springs()
+                .iter()
+                .map(|spring| (system.first(spring.node) + spring.direction, spring.stiffness))
+                .collect(),
+            is_firm: model.members().iter().all(|member| member.kind.is_firm()),
             matrix: vec![0.0; system.values()],
             assembled: false,
             shifted: Vec::new(),
@@ -136,6 +162,16 @@ impl<'m> Solver<'m> {
         &self.stiffness
     }
 
+    /// The springs of each member with joints, at its start and end, Nm/rad.
+    pub fn joints(&self) -> &[[Vector3<f64>; 2]] {
+        &self.joints
+    }
+
+    /// The springs of supports: unknown and stiffness.
+    pub fn springs(&self) -> &[(usize, f64)] {
+        &self.springs
+    }
+
     /// Assembles and factorises the stiffness with these sections (one for each of the model's).
     ///
     /// # Errors
@@ -150,13 +186,12 @@ impl<'m> Solver<'m> {
         if self.matrix.iter().any(|v| !v.is_finite()) {
             return Err(Unsound::NotFinite);
         }
-        // Members that resist every motion, joined rigidly and held, are no mechanism, however soft.
-        if self.sections.iter().all(Section::resists_all) {
+        // Members that resist every motion, joined rigidly or by springs and held, are no mechanism, however soft.
+        if self.is_firm && self.sections.iter().all(Section::resists_all) {
             return factored.map_err(|_| Unsound::IllConditioned);
         }
         self.factored = Factored::Nothing;
-        let room = &mut self.factor;
-        match mechanism::free_motion(self.model, &self.system, &self.stiffness, &self.matrix, room) {
+        match self.free_motion() {
             Some(motion) => Err(Unsound::Mechanism(motion)),
             // The search for a free motion has used the factor's room.
             None => self.refactorise().map_err(|_| Unsound::IllConditioned),
@@ -171,6 +206,8 @@ impl<'m> Solver<'m> {
         self.stiffness.clear();
         let count = self.model.members().len();
         self.stiffness.extend((0..count).map(|m| Stiffness::of_member(self.model, &self.sections, m)));
+        self.joints.clear();
+        self.joints.extend(self.system.turned().iter().map(|own| own.springs(&self.stiffness[own.member])));
         self.assembled = false;
         if self.factored == Factored::Stiffness {
             self.factored = Factored::Other;
@@ -180,6 +217,17 @@ impl<'m> Solver<'m> {
     /// Whether there is a factor of anything.
     pub fn has_factor(&self) -> bool {
         self.factored != Factored::Nothing
+    }
+
+    fn free_motion(&mut self) -> Option<FreeMotion> {
+        let structure = mechanism::Resisting {
+            model: self.model,
+            system: &self.system,
+            stiffness: &self.stiffness,
+            joints: &self.joints,
+            springs: &self.springs,
+        };
+        mechanism::free_motion(&structure, &self.matrix, &mut self.factor)
     }
 
     /// Factorises the stiffness once more: what everything else is measured against.
@@ -199,51 +247,19 @@ impl<'m> Solver<'m> {
         }
         self.matrix.fill(0.0);
         for (m, (axes, stiffness)) in self.model.axes().iter().zip(&self.stiffness).enumerate() {
-            self.system.add(&mut self.matrix, m, &stiffness.global(axes), 1.0);
+            if let Link::Turned(j) = self.system.slots()[m].link {
+                let (own, springs) = (&self.system.turned()[j as usize], &self.joints[j as usize]);
+                let blocks = own.matrix(axes, &stiffness.global(&axes.local()), Some(springs));
+                self.system.add_turned(&mut self.matrix, m, own, &blocks, 1.0);
+            } else {
+                self.system.add(&mut self.matrix, m, &stiffness.global(axes), 1.0);
+            }
+        }
+        for &(unknown, stiffness) in &self.springs {
+            self.matrix[self.system.diagonal(unknown)] += stiffness;
         }
         self.system.hold(&mut self.matrix, 1.0);
         self.assembled = true;
-    }
-
-    /// The uniform load on each member (N/m, global) of a combination, self weight included.
-    pub fn member_loads(&self, combination: &[(usize, f64)], loads: &mut Vec<Vector3<f64>>) {
-        loads.clear();
-        loads.resize(self.model.members().len(), Vector3::zeros());
-        let density = self.model.material().density;
-        for &(case, factor) in combination {
-            let case = &self.model.load_cases()[case];
-            for load in &case.uniform {
-                loads[load.member as usize] += Vector3::from(load.force_per_length) * factor;
-            }
-            if case.gravity != 0.0 {
-                let weight = factor * case.gravity * density;
-                for (load, member) in loads.iter_mut().zip(self.model.members()) {
-                    load.z -= weight * self.sections[member.section as usize].area;
-                }
-            }
-        }
-    }
-
-    /// The load vector of a combination with these member loads, held unknowns included.
-    pub fn load_vector(&self, combination: &[(usize, f64)], member_loads: &[Vector3<f64>], f: &mut [f64]) {
-        f.fill(0.0);
-        for &(case, factor) in combination {
-            for load in &self.model.load_cases()[case].nodal {
-                let first = self.system.first(load.node);
-                for (d, value) in load.load.iter().enumerate() {
-                    f[first + d] += factor * value;
-                }
-            }
-        }
-        for ((q, axes), slot) in member_loads.iter().zip(self.model.axes()).zip(self.system.slots()) {
-            let (force, moment) = element::uniform_load(axes, q);
-            for d in 0..3 {
-                f[slot.start + d] += force[d];
-                f[slot.end + d] += force[d];
-                f[slot.start + 3 + d] += moment[d];
-                f[slot.end + 3 + d] -= moment[d];
-            }
-        }
     }
 
     /// Solves K u = f in place, for one or several columns. If the factor is of something else by now, K is
@@ -273,7 +289,7 @@ impl<'m> Solver<'m> {
             for k in 0..corrections {
                 let mut correction = self.residual(&found, None, f);
                 self.solve(&mut correction);
-                let change = if k == 0 { self.beside(&correction, &found.u) } else { 0.0 };
+                let change = if k == 0 { self.beside(&correction, &found.u, 0.0) } else { 0.0 };
                 worst = if change.is_nan() { f64::INFINITY } else { worst.max(change) };
                 found = found.plus(&correction);
             }
@@ -295,12 +311,14 @@ impl<'m> Solver<'m> {
     /// no more. Gives also what rounding does.
     ///
     /// Balance alone proves nothing: in a chain of 50,000 elements a tip that is 40 % off is in balance to 1e-9.
-    pub fn first_order(&mut self, f: &[f64]) -> (Refined, Rounding) {
+    pub fn first_order(&mut self, action: &Action) -> (Refined, Rounding) {
         const MOST: usize = 40;
         const SMALL: f64 = 1e-10;
         const SETTLED: f64 = 1e-6;
-        let mut u = f.to_vec();
+        let f = &action.f;
+        let mut u = self.lifted(action, None);
         self.solve(&mut u);
+        action.add_settled(&mut u);
         let mut found = Refined { rest: vec![0.0; u.len()], u };
         let mut imbalance = f64::INFINITY;
         let mut changes = Vec::new();
@@ -308,8 +326,8 @@ impl<'m> Solver<'m> {
             let mut correction = self.residual(&found, None, f);
             self.solve(&mut correction);
             let better = found.plus(&correction);
-            let left = self.imbalance(&better, None, f);
-            changes.push(self.beside(&correction, &better.u));
+            let left = self.imbalance(&better, None, action);
+            changes.push(self.beside(&correction, &better.u, action.noise));
             let change = changes[changes.len() - 1];
             let nearer = left < imbalance || changes.len() > 1 && change < changes[changes.len() - 2];
             if !nearer {
@@ -325,33 +343,35 @@ impl<'m> Solver<'m> {
 
     /// The error of displacements in (K + Kg(N)) u = f with the factor of K + Kg at hand: what one more correction
     /// would change, in the norm of strain energy beside the whole.
-    pub fn error_of(&mut self, found: &Refined, axial: Option<&[f64]>, f: &[f64]) -> f64 {
-        let mut correction = self.residual(found, axial, f);
+    pub fn error_of(&mut self, found: &Refined, axial: Option<&[f64]>, action: &Action) -> f64 {
+        let mut correction = self.residual(found, axial, &action.f);
         self.solve_as_factorised(&mut correction);
-        self.beside(&correction, &found.u)
+        self.beside(&correction, &found.u, action.noise)
     }
 
-    /// A part of displacements beside the whole, in the norm of strain energy; 0 where there is nothing.
-    fn beside(&self, part: &[f64], whole: &[f64]) -> f64 {
+    /// A part of displacements beside the whole, in the norm of strain energy; 0 where there is nothing, or no more than
+    /// `noise`.
+    fn beside(&self, part: &[f64], whole: &[f64], noise: f64) -> f64 {
         let part = self.twice_energy(part);
-        if part == 0.0 { 0.0 } else { (part / self.twice_energy(whole)).sqrt() }
+        if part <= noise { 0.0 } else { (part / self.twice_energy(whole)).sqrt() }
     }
 
     /// f − (K + Kg(N)) u.
     pub fn residual(&self, found: &Refined, axial: Option<&[f64]>, f: &[f64]) -> Vec<f64> {
         let mut left = f.to_vec();
-        self.subtract_forces_of(|slot, axes| found.ends(slot, axes), axial, &mut left);
+        self.subtract_forces_of(|m| self.refined_ends(m, found), axial, &mut left);
+        self.subtract_springs(&found.u, &mut left);
         left
     }
 
     /// How far the free nodes are from equilibrium: the largest force left over, relative to the largest force on a
     /// node, and the same for moments; the worse of the two.
-    pub fn imbalance(&self, found: &Refined, axial: Option<&[f64]>, f: &[f64]) -> f64 {
-        let left = self.residual(found, axial, f);
+    pub fn imbalance(&self, found: &Refined, axial: Option<&[f64]>, action: &Action) -> f64 {
+        let left = self.residual(found, axial, &action.f);
         let mut worst = [0.0f64; 2];
-        let mut scale = [0.0f64; 2];
-        for (i, (left, f)) in left.iter().zip(f).enumerate() {
-            let kind = usize::from(i % DOFS > 2);
+        let mut scale = action.scale;
+        for (i, (left, f)) in left.iter().zip(&action.f).enumerate() {
+            let kind = usize::from(self.system.is_rotation(i));
             // A reaction is part of what is in balance.
             scale[kind] = scale[kind].max(f.abs());
             if self.system.held()[i] {
@@ -369,45 +389,133 @@ impl<'m> Solver<'m> {
 
     /// r −= (K + Kg(N)) u, element by element.
     pub fn subtract_forces(&self, u: &[f64], axial: Option<&[f64]>, r: &mut [f64]) {
-        self.subtract_forces_of(|slot, axes| Ends::read(u, slot.start, slot.end).local(axes), axial, r);
+        self.subtract_forces_of(|m| self.ends(m, u), axial, r);
+        self.subtract_springs(u, r);
     }
 
-    /// The same, given the ends of each member in its local axes.
+    fn subtract_springs(&self, u: &[f64], r: &mut [f64]) {
+        for &(unknown, stiffness) in &self.springs {
+            r[unknown] -= stiffness * u[unknown];
+        }
+    }
+
+    /// The same for the members, given the ends of each.
     #[inline]
-    fn subtract_forces_of(
+    fn subtract_forces_of(&self, ends: impl Fn(usize) -> BothEnds, axial: Option<&[f64]>, r: &mut [f64]) {
+        for (m, (axes, slot)) in self.model.axes().iter().zip(self.system.slots()).enumerate() {
+            let BothEnds { beam, slips } = ends(m);
+            let actions = self.end_actions(m, &beam, axial.map(|axial| axial[m]));
+            let springs = |j: usize| {
+                let [k1, k2] = &self.joints[j];
+                [k1.component_mul(&slips[0]), k2.component_mul(&slips[1])]
+            };
+            self.scatter_local(&actions, slot, axes, springs, r);
+        }
+    }
+
+    /// Adds −1 × the end actions of a beam (local axes), and of the springs at its ends, to a vector.
+    #[inline]
+    fn scatter_local(
         &self,
-        ends: impl Fn(&Slot, &Frame3) -> Ends,
-        axial: Option<&[f64]>,
+        actions: &EndActions,
+        slot: &Slot,
+        axes: &Frame3,
+        springs: impl Fn(usize) -> [Vector3<f64>; 2],
         r: &mut [f64],
     ) {
-        for (m, (axes, slot)) in self.model.axes().iter().zip(self.system.slots()).enumerate() {
-            let ends = ends(slot, axes);
-            let mut actions = self.stiffness[m].apply_local(&ends);
-            if let Some(axial) = axial {
-                let g = element::geometric_actions(&Vector3::x(), axes.length, axial[m], &ends);
-                actions.force += g.force;
-                actions.m1 += g.m1;
-                actions.m2 += g.m2;
+        let mut at_nodes = *actions;
+        if let Link::Turned(j) = slot.link {
+            let turned = &self.system.turned()[j as usize];
+            let (nodes, own) = turned.passed_on(actions, &springs(j as usize));
+            at_nodes = nodes;
+            let unknowns = &mut r[turned.at..turned.at + DOFS];
+            unknowns.iter_mut().zip(own.iter().flatten()).for_each(|(r, m)| *r -= m);
+        }
+        let back = |v: &Vector3<f64>| axes.x * v.x + axes.y * v.y + axes.z * v.z;
+        let actions =
+            EndActions { force: back(&at_nodes.force), m1: back(&at_nodes.m1), m2: back(&at_nodes.m2) };
+        scatter(&actions, slot.start, slot.end, -1.0, r);
+    }
+
+    /// What member `m` does at its ends, local axes: (k + N kg) u, `tension` = N.
+    #[inline]
+    pub fn end_actions(&self, m: usize, ends: &Ends, tension: Option<f64>) -> EndActions {
+        let mut actions = self.stiffness[m].apply_local(ends);
+        if let Some(tension) = tension {
+            let g = self.geometric_actions(m, ends, tension);
+            actions.force += g.force;
+            actions.m1 += g.m1;
+            actions.m2 += g.m2;
+        }
+        actions
+    }
+
+    #[inline]
+    fn geometric_actions(&self, m: usize, ends: &Ends, tension: f64) -> EndActions {
+        let (x, length) = (Vector3::x(), self.model.axes()[m].length);
+        match self.system.slots()[m].link {
+            Link::Truss => element::geometric_actions_of_truss(&x, length, tension, ends),
+            Link::Rigid | Link::Turned(_) => element::geometric_actions(&x, length, tension, ends),
+        }
+    }
+
+    /// The ends of member `m`, local axes.
+    #[inline]
+    pub fn ends(&self, m: usize, u: &[f64]) -> BothEnds {
+        let slot = &self.system.slots()[m];
+        let nodes = Ends::read(u, slot.start, slot.end).local(&self.model.axes()[m]);
+        match slot.link {
+            Link::Rigid | Link::Truss => BothEnds::rigid(nodes),
+            Link::Turned(j) => {
+                let turned = &self.system.turned()[j as usize];
+                let y = turned.read(u);
+                BothEnds { beam: turned.ends(&nodes, &y), slips: turned.slips(&nodes, &y) }
             }
-            let back = |v: &Vector3<f64>| axes.x * v.x + axes.y * v.y + axes.z * v.z;
-            let actions =
-                EndActions { force: back(&actions.force), m1: back(&actions.m1), m2: back(&actions.m2) };
-            scatter(&actions, slot.start, slot.end, -1.0, r);
+        }
+    }
+
+    /// The same of displacements in two parts.
+    pub fn refined_ends(&self, m: usize, found: &Refined) -> BothEnds {
+        let slot = &self.system.slots()[m];
+        let axes = &self.model.axes()[m];
+        let nodes = Ends::local_of(&found.u, &found.rest, slot.start, slot.end, axes);
+        match slot.link {
+            Link::Rigid | Link::Truss => BothEnds::rigid(nodes),
+            Link::Turned(j) => {
+                let turned = &self.system.turned()[j as usize];
+                let (whole, rest) = (turned.read(&found.u), turned.read(&found.rest));
+                let y = [whole[0] + rest[0], whole[1] + rest[1]];
+                BothEnds { beam: turned.ends(&nodes, &y), slips: turned.slips(&nodes, &y) }
+            }
         }
     }
 
     /// Twice the strain energy of displacements, from the deformations of the elements.
     pub fn twice_energy(&self, u: &[f64]) -> f64 {
-        let members = self.model.axes().iter().zip(self.system.slots()).zip(&self.stiffness);
-        members
-            .map(|((axes, slot), k)| {
-                k.twice_energy(&Ends::read(u, slot.start, slot.end).local(axes), axes.length)
+        let axes = self.model.axes();
+        let members: f64 = (0..axes.len())
+            .map(|m| self.stiffness[m].twice_energy(&self.ends(m, u).beam, axes[m].length))
+            .sum();
+        if self.springs.is_empty() && self.joints.is_empty() {
+            return members;
+        }
+        let joints: f64 = self
+            .system
+            .turned()
+            .iter()
+            .zip(&self.joints)
+            .map(|(turned, springs)| {
+                let slips = self.ends(turned.member, u).slips;
+                (0..2).map(|i| springs[i].dot(&slips[i].component_mul(&slips[i]))).sum::<f64>()
             })
-            .sum()
+            .sum();
+        let springs: f64 = self.springs.iter().map(|&(unknown, k)| k * u[unknown] * u[unknown]).sum();
+        members + joints + springs
     }
 
-    /// The mean axial force N of each member (tension positive): EA/L times the linear elongation.
-    pub fn axial_forces(&self, u: &[f64], axial: &mut Vec<f64>) {
+    /// The mean axial force N of each member (tension positive): EA/L times the linear elongation, and the `initial` N of
+    /// what is warmed and held (empty: none).
+    pub fn axial_forces(&self, u: &[f64], initial: &[f64], axial: &mut Vec<f64>) {
         axial.clear();
         let members = self.model.axes().iter().zip(self.system.slots()).zip(&self.stiffness);
         axial.extend(members.map(|((axes, slot), k)| {
@@ -415,14 +523,18 @@ impl<'m> Solver<'m> {
             let stretch = Vector3::new(u[e] - u[s], u[e + 1] - u[s + 1], u[e + 2] - u[s + 2]);
             k.axial * axes.x.dot(&stretch)
         }));
+        axial.iter_mut().zip(initial).for_each(|(n, initial)| *n += initial);
     }
 
     /// The same of displacements in two parts.
-    pub fn axial_forces_of(&self, found: &Refined, axial: &mut Vec<f64>) {
+    pub fn axial_forces_of(&self, found: &Refined, initial: &[f64], axial: &mut Vec<f64>) {
         axial.clear();
         let members = self.model.axes().iter().zip(self.system.slots()).zip(&self.stiffness);
         // The shift is that of the start less that of the end.
-        axial.extend(members.map(|((axes, slot), k)| -k.axial * found.ends(slot, axes).shift.x));
+        axial.extend(members.map(|((axes, slot), k)| {
+            -k.axial * Ends::local_of(&found.u, &found.rest, slot.start, slot.end, axes).shift.x
+        }));
+        axial.iter_mut().zip(initial).for_each(|(n, initial)| *n += initial);
     }
 
     /// y = −Kg(N) x, for several columns, without a matrix.
@@ -430,10 +542,15 @@ impl<'m> Solver<'m> {
         let n = self.system.unknowns();
         y.fill(0.0);
         for (x, y) in x.chunks(n).zip(y.chunks_mut(n)) {
-            for ((axes, slot), &tension) in self.model.axes().iter().zip(self.system.slots()).zip(axial) {
-                let ends = Ends::read(x, slot.start, slot.end);
-                let actions = element::geometric_actions(&axes.x, axes.length, tension, &ends);
-                scatter(&actions, slot.start, slot.end, -1.0, y);
+            for (m, (axes, slot)) in self.model.axes().iter().zip(self.system.slots()).enumerate() {
+                if slot.link == Link::Rigid {
+                    let ends = Ends::read(x, slot.start, slot.end);
+                    let actions = element::geometric_actions(&axes.x, axes.length, axial[m], &ends);
+                    scatter(&actions, slot.start, slot.end, -1.0, y);
+                } else {
+                    let actions = self.geometric_actions(m, &self.ends(m, x).beam, axial[m]);
+                    self.scatter_local(&actions, slot, axes, |_| [Vector3::zeros(); 2], y);
+                }
             }
             self.system.hold_vector(y);
         }
@@ -454,10 +571,28 @@ impl<'m> Solver<'m> {
         self.assemble();
         self.shifted.clear();
         self.shifted.extend_from_slice(&self.matrix);
-        for (m, axes) in self.model.axes().iter().enumerate() {
-            self.system.add(&mut self.shifted, m, &element::geometric(axes), s * axial[m]);
-        }
+        let mut shifted = std::mem::take(&mut self.shifted);
+        self.add_geometric(&mut shifted, axial, s);
+        self.shifted = shifted;
         self.system.hold(&mut self.shifted, 1.0);
+    }
+
+    /// Adds s Kg(N) to the values of a matrix.
+    fn add_geometric(&self, values: &mut [f64], axial: &[f64], s: f64) {
+        for (m, (axes, slot)) in self.model.axes().iter().zip(self.system.slots()).enumerate() {
+            let factor = s * axial[m];
+            let blocks: Blocks = match slot.link {
+                Link::Rigid => element::geometric(axes),
+                Link::Truss => element::geometric_of_truss(axes),
+                Link::Turned(j) => {
+                    let own = &self.system.turned()[j as usize];
+                    let blocks = own.matrix(axes, &element::geometric(&axes.local()), None);
+                    self.system.add_turned(values, m, own, &blocks, factor);
+                    continue;
+                }
+            };
+            self.system.add(values, m, &blocks, factor);
+        }
     }
 
     /// Whether K + s Kg(N) is positive definite: whether no factor lies below s. The factor then is of nothing.
@@ -483,9 +618,7 @@ impl<'m> Solver<'m> {
     /// Kg(N) with the held unknowns taken out (diagonal 0), assembled.
     pub fn geometric_matrix(&self, axial: &[f64]) -> CscMatrix<f64> {
         let mut values = vec![0.0; self.system.values()];
-        for (m, axes) in self.model.axes().iter().enumerate() {
-            self.system.add(&mut values, m, &element::geometric(axes), axial[m]);
-        }
+        self.add_geometric(&mut values, axial, 1.0);
         self.system.hold(&mut values, 0.0);
         self.system.symmetric(&values)
     }

@@ -3,10 +3,12 @@
 //!
 //! Every node keeps its six unknowns; held ones are zeroed out of the matrix with 1 on the diagonal. So the matrix
 //! consists of 6 × 6 blocks, a member's place in it is three numbers, and all vectors have `6 × nodes` entries in
-//! *elimination order*: unknown d of node n is entry `first(n) + d`.
+//! *elimination order*: unknown d of node n is entry `first(n) + d`. A member that is not joined rigidly has a block of
+//! its own beside its nodes', for the rotations of its two ends ([`super::joint`]).
 
 use super::element::Blocks;
-use super::model::FrameModel;
+use super::joint::{BLOCKS, Turned};
+use super::model::{FrameModel, MemberKind};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::cholesky::{simplicial, supernodal};
 use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
@@ -31,6 +33,19 @@ pub struct Slot {
     pub end: usize,
     /// Index, among the blocks of the earlier node's column, of the block that couples the two.
     below: u32,
+    /// How it is joined to them.
+    pub link: Link,
+}
+
+/// What a member does at its nodes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Link {
+    /// A beam joined rigidly.
+    Rigid,
+    /// It pushes and pulls.
+    Truss,
+    /// A beam joined by springs or hinges: which of [`System::turned`].
+    Turned(u32),
 }
 
 /// Numbering, sparsity and symbolic factor.
@@ -41,6 +56,9 @@ pub struct System {
     block_start: Vec<usize>,
     lower: SymbolicSparseColMat<u32>,
     slots: Vec<Slot>,
+    turned: Vec<Turned>,
+    /// Whether a block is a member's; empty where none is.
+    of_member: Vec<bool>,
     held: Vec<bool>,
     symbolic: supernodal::SymbolicSupernodalCholesky<u32>,
 }
@@ -51,37 +69,51 @@ impl System {
     /// # Errors
     /// [`TooLarge`].
     pub fn new(model: &FrameModel) -> Result<Self, TooLarge> {
-        let nodes = model.nodes().len();
-        let position = elimination_order(model)?;
+        let members = model.members();
+        let jointed: Vec<usize> =
+            (0..members.len()).filter(|&m| members[m].kind.joints().is_some()).collect();
+        let nodes = model.nodes().len() + jointed.len();
+        // Nodes, and after them the members with joints, by the pairs that are coupled.
+        let own = |j: usize| (model.nodes().len() + j) as u32;
+        let mut coupled: Vec<(u32, u32)> = members.iter().map(|m| (m.start, m.end)).collect();
+        for (j, &m) in jointed.iter().enumerate() {
+            coupled.extend([(members[m].start, own(j)), (members[m].end, own(j))]);
+        }
+        let position = elimination_order(nodes, &coupled)?;
         let at = |n: u32| position[n as usize];
-        let pairs: Vec<(u32, u32)> = model
-            .members()
-            .iter()
-            .map(|m| (at(m.start).min(at(m.end)), at(m.start).max(at(m.end))))
-            .collect();
-        let mut sorted = pairs.clone();
+        let mut sorted: Vec<(u32, u32)> =
+            coupled.iter().map(|&(a, b)| (at(a).min(at(b)), at(a).max(at(b)))).collect();
         sorted.sort_unstable();
         let (block_start, blocks) = block_columns(nodes, &sorted);
         let (col_ptr, row_idx) = expand(&block_start, &blocks)?;
         let n = DOFS * nodes;
         let lower = SymbolicSparseColMat::new_checked(n, n, col_ptr, None, row_idx);
         let symbolic = symbolic_factor(nodes, &sorted)?;
-        let mut held = vec![false; DOFS * nodes];
-        for (n, fixed) in model.fixed().iter().enumerate() {
-            let first = DOFS * position[n] as usize;
-            held[first..first + DOFS].copy_from_slice(fixed);
-        }
-        let slots = model
-            .members()
+        let below = |a: u32, b: u32| {
+            let (early, late) = (at(a).min(at(b)) as usize, at(a).max(at(b)));
+            let column = &blocks[block_start[early]..block_start[early + 1]];
+            column.partition_point(|&row| row < late) as u32
+        };
+        let first = |n: u32| DOFS * at(n) as usize;
+        let mut slots: Vec<Slot> = members
             .iter()
-            .zip(&pairs)
-            .map(|(m, &(early, late))| {
-                let column = &blocks[block_start[early as usize]..block_start[early as usize + 1]];
-                let below = column.partition_point(|&row| row < late) as u32;
-                Slot { start: DOFS * at(m.start) as usize, end: DOFS * at(m.end) as usize, below }
+            .map(|m| Slot {
+                start: first(m.start),
+                end: first(m.end),
+                below: below(m.start, m.end),
+                link: if m.kind == MemberKind::Truss { Link::Truss } else { Link::Rigid },
             })
             .collect();
-        Ok(Self { nodes, position, block_start, lower, slots, held, symbolic })
+        let mut turned = Vec::new();
+        for (j, &m) in jointed.iter().enumerate() {
+            let (start, end, own) = (members[m].start, members[m].end, own(j));
+            slots[m].link = Link::Turned(j as u32);
+            turned.push(Turned::new(model, m, first(own), [below(start, own), below(end, own)]));
+        }
+        let mut of_member = vec![false; if turned.is_empty() { 0 } else { nodes }];
+        turned.iter().for_each(|own| of_member[own.at / DOFS] = true);
+        let held = held(model, &turned, n, first);
+        Ok(Self { nodes, position, block_start, lower, slots, turned, of_member, held, symbolic })
     }
 
     /// Number of unknowns, held ones included.
@@ -94,16 +126,19 @@ impl System {
         DOFS * self.position[n as usize] as usize
     }
 
-    /// The node and direction (0 … 5) of an unknown.
-    pub fn unknown(&self, index: usize) -> (u32, usize) {
-        let position = (index / DOFS) as u32;
-        let node = self.position.iter().position(|&p| p == position).unwrap_or(0);
-        (node as u32, index % DOFS)
+    /// Whether an unknown is a rotation: the second three of a node, all six of a member with joints.
+    pub fn is_rotation(&self, unknown: usize) -> bool {
+        unknown % DOFS > 2 || self.of_member.get(unknown / DOFS).is_some_and(|of_member| *of_member)
     }
 
     /// Places of all members.
     pub fn slots(&self) -> &[Slot] {
         &self.slots
+    }
+
+    /// The members with joints, in order.
+    pub fn turned(&self) -> &[Turned] {
+        &self.turned
     }
 
     /// Which unknowns are held.
@@ -139,7 +174,7 @@ impl System {
 
     /// Adds a member's blocks × `factor` to a matrix's values.
     pub fn add(&self, values: &mut [f64], member: usize, blocks: &Blocks, factor: f64) {
-        let Slot { start, end, below } = self.slots[member];
+        let Slot { start, end, below, .. } = self.slots[member];
         let b =
             Blocks { d: blocks.d * factor, s: blocks.s * factor, p: blocks.p * factor, q: blocks.q * factor };
         let turned = b.s.transpose();
@@ -151,6 +186,28 @@ impl System {
             self.add_block(values, start / DOFS, below as usize, [&d, &-b.s, &turned, &q]);
         } else {
             self.add_block(values, end / DOFS, below as usize, [&d, &b.s, &-turned, &q]);
+        }
+    }
+
+    /// The same for a member with joints: its matrix in 3 × 3 blocks, for displacement and rotation of its start and of
+    /// its end (global), then the rotations of its own two ends (local).
+    pub fn add_turned(&self, values: &mut [f64], member: usize, own: &Turned, blocks: &BLOCKS, factor: f64) {
+        let Slot { start, end, below, .. } = self.slots[member];
+        let part = |row: usize, column: usize| {
+            let of = |r: usize, c: usize| blocks[2 * row + r][2 * column + c] * factor;
+            [of(0, 0), of(0, 1), of(1, 0), of(1, 1)]
+        };
+        let mut add = |column: usize, block: usize, parts: [Matrix3<f64>; 4]| {
+            let [uu, ur, ru, rr] = &parts;
+            self.add_block(values, column, block, [uu, ur, ru, rr]);
+        };
+        let places = [start / DOFS, end / DOFS, own.at / DOFS];
+        for (i, &place) in places.iter().enumerate() {
+            add(place, 0, part(i, i));
+        }
+        for (i, j, below) in [(0, 1, below), (0, 2, own.below[0]), (1, 2, own.below[1])] {
+            let (early, late) = if places[i] < places[j] { (i, j) } else { (j, i) };
+            add(places[early], below as usize, part(late, early));
         }
     }
 
@@ -221,13 +278,29 @@ impl System {
     }
 }
 
+/// Which unknowns are held: by supports, because a node has no rotation, or because an end turns with its node.
+fn held(model: &FrameModel, turned: &[Turned], n: usize, first: impl Fn(u32) -> usize) -> Vec<bool> {
+    let mut held = vec![false; n];
+    for (node, fixed) in model.fixed().iter().enumerate() {
+        let first = first(node as u32);
+        held[first..first + DOFS].copy_from_slice(fixed);
+    }
+    for &node in model.unturned() {
+        let first = first(node);
+        held[first + DOFS / 2..first + DOFS].fill(true);
+    }
+    for own in turned {
+        held[own.at..own.at + DOFS].copy_from_slice(&own.rigid());
+    }
+    held
+}
+
 /// For each node, its place in the elimination order.
-fn elimination_order(model: &FrameModel) -> Result<Vec<u32>, TooLarge> {
-    let nodes = model.nodes().len();
-    let mut edges: Vec<(i64, i64)> = Vec::with_capacity(2 * model.members().len());
-    for member in model.members() {
-        edges.push((i64::from(member.start), i64::from(member.end)));
-        edges.push((i64::from(member.end), i64::from(member.start)));
+fn elimination_order(nodes: usize, coupled: &[(u32, u32)]) -> Result<Vec<u32>, TooLarge> {
+    let mut edges: Vec<(i64, i64)> = Vec::with_capacity(2 * coupled.len());
+    for &(a, b) in coupled {
+        edges.push((i64::from(a), i64::from(b)));
+        edges.push((i64::from(b), i64::from(a)));
     }
     edges.sort_unstable();
     let mut starts = vec![0i64; nodes + 1];

@@ -58,7 +58,7 @@ fn column(count: u32, axis: [f64; 3], across: f64) -> (FrameParts, f64) {
         *node = x.map(|x| 10.0 * x * k as f64 / f64::from(count));
     }
     parts.members.iter_mut().for_each(|member| member.up = [-x[1], x[0], 0.5]);
-    parts.supports = vec![Support { node: 0, fixed: [true; 6] }];
+    parts.supports = vec![Support::fixed(0, [true; 6])];
     let push = 1e4;
     // Across: perpendicular to x, in the plan.
     let side = x[0].hypot(x[1]);

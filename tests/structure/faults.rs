@@ -3,7 +3,9 @@
 use crate::support::columns;
 use nalgebra::{Matrix2, Vector2, Vector3};
 use quadrille::random::{self, Rng};
-use quadrille::structure::model::{FrameParts, LoadCase, Material, Member, NodalLoad, Support, UniformLoad};
+use quadrille::structure::model::{
+    FrameParts, LoadCase, Material, Member, MemberKind, NodalLoad, Support, UniformLoad,
+};
 use quadrille::structure::section::Section;
 use quadrille::structure::{FrameAnalysis, FrameError, FrameModel, FrameResult, Order, file, frame};
 use std::f64::consts::{PI, TAU};
@@ -139,15 +141,21 @@ impl Skew {
         let (force, moment, load) = (force * scale, moment * scale, load * scale);
         let nodal = NodalLoad { node: 1, load: [force.x, force.y, force.z, moment.x, moment.y, moment.z] };
         let uniform = UniformLoad { member: 0, force_per_length: load.into() };
-        let material = Material { youngs_modulus: E, shear_modulus: 80e9, density: 0.0, strength: 235e6 };
+        let material = Material {
+            youngs_modulus: E,
+            shear_modulus: 80e9,
+            density: 0.0,
+            strength: 235e6,
+            thermal_expansion: 1.2e-5,
+        };
         let parts = FrameParts {
             nodes: vec![[0.0; 3], (x * length).into()],
-            members: vec![Member { start: 0, end: 1, up: z.into(), section: 0 }],
+            members: vec![Member { start: 0, end: 1, up: z.into(), section: 0, kind: MemberKind::RIGID }],
             sections: vec![section],
             material,
             shear_deformation: false,
-            supports: vec![Support { node: 0, fixed: [true; 6] }],
-            load_cases: vec![LoadCase { nodal: vec![nodal], uniform: vec![uniform], gravity: 0.0 }],
+            supports: vec![Support::fixed(0, [true; 6])],
+            load_cases: vec![LoadCase { nodal: vec![nodal], uniform: vec![uniform], ..LoadCase::default() }],
         };
         let local = |v: &Vector3<f64>| [x.dot(v), y.dot(v), z.dot(v)];
         let ([fx, fy, fz], [mx, my, mz], [qx, qy, qz]) = (local(&force), local(&moment), local(&load));
@@ -227,10 +235,22 @@ fn chain(count: u32, supports: Vec<Support>, loaded: u32) -> FrameParts {
     FrameParts {
         nodes: (0..=count).map(|i| [step * f64::from(i), 0.0, 0.0]).collect(),
         members: (0..count)
-            .map(|i| Member { start: i, end: i + 1, up: [0.0, 0.0, 1.0], section: 0 })
+            .map(|i| Member {
+                start: i,
+                end: i + 1,
+                up: [0.0, 0.0, 1.0],
+                section: 0,
+                kind: MemberKind::RIGID,
+            })
             .collect(),
         sections: vec![Section::rectangular_hollow(0.1, 0.18, 0.006).unwrap()],
-        material: Material { youngs_modulus: E, shear_modulus: 80e9, density: 0.0, strength: 235e6 },
+        material: Material {
+            youngs_modulus: E,
+            shear_modulus: 80e9,
+            density: 0.0,
+            strength: 235e6,
+            thermal_expansion: 1.2e-5,
+        },
         shear_deformation: false,
         supports,
         load_cases: vec![LoadCase { nodal: vec![load], ..LoadCase::default() }],
@@ -240,11 +260,11 @@ fn chain(count: u32, supports: Vec<Support>, loaded: u32) -> FrameParts {
 #[test]
 fn a_chain_of_twenty_thousand_elements_is_no_mechanism() {
     for (count, tolerance) in [(2_000u32, 1e-6), (20_000, 1e-4)] {
-        let clamped = chain(count, vec![Support { node: 0, fixed: [true; 6] }], count);
+        let clamped = chain(count, vec![Support::fixed(0, [true; 6])], count);
         let bent = 1e3 * 1e3 / (E * clamped.sections[0].iy);
         let ends = vec![
-            Support { node: 0, fixed: [true, true, true, true, false, false] },
-            Support { node: count, fixed: [false, true, true, false, false, false] },
+            Support::fixed(0, [true, true, true, true, false, false]),
+            Support::fixed(count, [false, true, true, false, false, false]),
         ];
         for (parts, at, share) in [(clamped, count, 3.0), (chain(count, ends, count / 2), count / 2, 48.0)] {
             let sinks = -analyse(parts, Order::First, 0).unwrap().displacements[at as usize][2];
@@ -257,7 +277,7 @@ fn a_chain_of_twenty_thousand_elements_is_no_mechanism() {
 fn a_part_that_no_support_holds_is_a_mechanism_however_long() {
     let chain = |fixed: [bool; 6]| {
         let mut parts = columns(1, 5_000, 0.0);
-        parts.supports = vec![Support { node: 0, fixed }, Support { node: 5_000, fixed }];
+        parts.supports = vec![Support::fixed(0, fixed), Support::fixed(5_000, fixed)];
         analyse(parts, Order::First, 0)
     };
     let pinned = [true, true, true, false, false, false];

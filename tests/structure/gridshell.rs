@@ -233,7 +233,7 @@ fn metrics_are_the_worst_over_all_combinations_required_whatever_their_order() {
         let cases = scaled(factor).into_iter().map(|(case, factor)| (case.to_owned(), factor)).collect();
         params.combinations.insert(name.into(), cases);
     }
-    let one = |quantity, combination: &str| {
+    let one = |quantity: Quantity, combination: &str| {
         let (max, min) =
             if quantity == Quantity::BucklingFactor { (None, Some(1.5)) } else { (Some(0.5), None) };
         RequirementParams { quantity: quantity.into(), combination: Some(combination.into()), max, min }

@@ -7,6 +7,8 @@ mod cli;
 mod edges;
 mod faults;
 mod gridshell;
+mod independent;
+mod joints;
 mod laws;
 mod robust;
 mod sizing;

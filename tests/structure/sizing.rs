@@ -180,9 +180,8 @@ fn settles(pattern: &Pattern, params: &StructureParams) -> bool {
     let cases: Vec<(usize, f64)> = params.combinations["uls"].values().copied().enumerate().collect();
     let mut loads = Vec::new();
     solver.member_loads(&cases, &mut loads);
-    let mut f = vec![0.0; solver.system().unknowns()];
-    solver.load_vector(&cases, &loads, &mut f);
-    let mut u = solver.first_order(&f).0.u;
+    let action = solver.action(&cases, &loads);
+    let mut u = solver.first_order(&action).0.u;
     let aim = Aim { second_order: true, tolerance: 1e-6 };
-    solver.iterate(&f, &mut u, aim, &mut Room::default())
+    solver.iterate(&action.f, &[&[]], &mut u, aim, &mut Room::default())
 }

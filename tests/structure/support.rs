@@ -4,7 +4,9 @@
 use nalgebra::{Rotation3, Vector3};
 use quadrille::geometry::{Panel, Pattern};
 use quadrille::random;
-use quadrille::structure::model::{FrameParts, LoadCase, Material, Member, NodalLoad, Support, UniformLoad};
+use quadrille::structure::model::{
+    FrameParts, LoadCase, Material, Member, MemberKind, NodalLoad, Support, UniformLoad,
+};
 use quadrille::structure::section::Section;
 
 /// A grid of `m` × `n` panels over a plan of `width` × `depth` m, at heights `z(x, y)`, x and y from −1 to 1.
@@ -145,7 +147,7 @@ pub fn random_tower(seed: u32) -> FrameParts {
     }
     let mut members = Vec::new();
     let mut join = |a: u32, b: u32, section: u32| {
-        members.push(Member { start: a, end: b, up: [0.3, 0.2, 1.0], section });
+        members.push(Member { start: a, end: b, up: [0.3, 0.2, 1.0], section, kind: MemberKind::RIGID });
     };
     for storey in 0..storeys {
         let (below, above) = (4 * storey, 4 * (storey + 1));
@@ -171,13 +173,19 @@ pub fn random_tower(seed: u32) -> FrameParts {
         ],
         material: steel(),
         shear_deformation: seed % 2 == 1,
-        supports: (0..4).map(|node| Support { node, fixed: [true; 6] }).collect(),
+        supports: (0..4).map(|node| Support::fixed(node, [true; 6])).collect(),
         load_cases: vec![LoadCase { nodal, ..LoadCase::default() }],
     }
 }
 
 fn steel() -> Material {
-    Material { youngs_modulus: 210e9, shear_modulus: 80.77e9, density: 7850.0, strength: 355e6 }
+    Material {
+        youngs_modulus: 210e9,
+        shear_modulus: 80.77e9,
+        density: 7850.0,
+        strength: 355e6,
+        thermal_expansion: 1.2e-5,
+    }
 }
 
 /// The same model turned about the origin, supports clamped so that they need no turning; with the turn.
@@ -210,6 +218,9 @@ pub fn renumbered(parts: &FrameParts, seed: u32) -> (FrameParts, Vec<usize>) {
     let moved = |n: u32| place[n as usize] as u32;
     for member in &mut other.members {
         (member.start, member.end) = (moved(member.end), moved(member.start));
+        if let MemberKind::Beam([start, end]) = member.kind {
+            member.kind = MemberKind::Beam([end, start]);
+        }
     }
     other.members.reverse();
     other.supports.iter_mut().for_each(|s| s.node = moved(s.node));
@@ -249,8 +260,9 @@ pub fn columns(count: u32, elements: u32, epsilon: f64) -> FrameParts {
             end: base + k + 1,
             up: [1.0, 0.0, 0.0],
             section: 0,
+            kind: MemberKind::RIGID,
         }));
-        parts.supports.push(Support { node: base, fixed: [true; 6] });
+        parts.supports.push(Support::fixed(base, [true; 6]));
         let load = [0.0, 0.0, -1e5 * (1.0 + epsilon * f64::from(c)), 0.0, 0.0, 0.0];
         parts.load_cases[0].nodal.push(NodalLoad { node: base + elements, load });
     }
@@ -268,7 +280,9 @@ impl Bend {
         let step = 5.0 / f64::from(self.elements);
         FrameParts {
             nodes: (0..=self.elements).map(|i| direction.map(|d| d * step * f64::from(i))).collect(),
-            members: (0..self.elements).map(|i| Member { start: i, end: i + 1, up, section: 0 }).collect(),
+            members: (0..self.elements)
+                .map(|i| Member { start: i, end: i + 1, up, section: 0, kind: MemberKind::RIGID })
+                .collect(),
             sections: vec![Section::rectangular_hollow(0.1, 0.18, 0.006).unwrap()],
             material: steel(),
             shear_deformation: false,
@@ -283,15 +297,15 @@ impl Bend {
             .map(|member| UniformLoad { member, force_per_length: [0.0, 0.0, -q] })
             .collect();
         let case = LoadCase { uniform, ..LoadCase::default() };
-        self.along([1.0, 0.0, 0.0], [0.0, 0.0, 1.0], vec![Support { node: 0, fixed: [true; 6] }], case)
+        self.along([1.0, 0.0, 0.0], [0.0, 0.0, 1.0], vec![Support::fixed(0, [true; 6])], case)
     }
 
     /// Upright, pinned at both ends, 100 kN on top; it buckles about its weak axis.
     pub fn pinned_column(&self) -> FrameParts {
         let load = NodalLoad { node: self.elements, load: [0.0, 0.0, -1e5, 0.0, 0.0, 0.0] };
         let supports = vec![
-            Support { node: 0, fixed: [true, true, true, false, false, true] },
-            Support { node: self.elements, fixed: [true, true, false, false, false, false] },
+            Support::fixed(0, [true, true, true, false, false, true]),
+            Support::fixed(self.elements, [true, true, false, false, false, false]),
         ];
         let case = LoadCase { nodal: vec![load], ..LoadCase::default() };
         self.along([0.0, 0.0, 1.0], [1.0, 0.0, 0.0], supports, case)
@@ -301,7 +315,7 @@ impl Bend {
     pub fn column_with_tip_load(&self, p: f64, h: f64) -> FrameParts {
         let load = NodalLoad { node: self.elements, load: [0.0, h, -p, 0.0, 0.0, 0.0] };
         let case = LoadCase { nodal: vec![load], ..LoadCase::default() };
-        let foot = vec![Support { node: 0, fixed: [true; 6] }];
+        let foot = vec![Support::fixed(0, [true; 6])];
         self.along([0.0, 0.0, 1.0], [1.0, 0.0, 0.0], foot, case)
     }
 }

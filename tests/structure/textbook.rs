@@ -1,6 +1,8 @@
 //! Models with known answers beside the reference cases: other directions, supports, loads, sections. SI units.
 
-use quadrille::structure::model::{FrameParts, LoadCase, Material, Member, NodalLoad, Support, UniformLoad};
+use quadrille::structure::model::{
+    FrameParts, LoadCase, Material, Member, MemberKind, NodalLoad, Support, UniformLoad,
+};
 use quadrille::structure::section::Section;
 use quadrille::structure::{FrameAnalysis, FrameError, FrameModel, FrameResult, Order, frame};
 use std::f64::consts::PI;
@@ -29,14 +31,22 @@ fn section() -> Section {
 
 /// A polyline of members; `held[i]` for the nodes named.
 fn polyline(nodes: Vec<[f64; 3]>, up: [f64; 3], held: &[(usize, [bool; 6])]) -> FrameParts {
-    let members = (1..nodes.len() as u32).map(|end| Member { start: end - 1, end, up, section: 0 }).collect();
+    let members = (1..nodes.len() as u32)
+        .map(|end| Member { start: end - 1, end, up, section: 0, kind: MemberKind::RIGID })
+        .collect();
     FrameParts {
         nodes,
         members,
         sections: vec![section()],
-        material: Material { youngs_modulus: E, shear_modulus: G, density: 7850.0, strength: 355e6 },
+        material: Material {
+            youngs_modulus: E,
+            shear_modulus: G,
+            density: 7850.0,
+            strength: 355e6,
+            thermal_expansion: 1.2e-5,
+        },
         shear_deformation: false,
-        supports: held.iter().map(|&(node, fixed)| Support { node: node as u32, fixed }).collect(),
+        supports: held.iter().map(|&(node, fixed)| Support::fixed(node as u32, fixed)).collect(),
         load_cases: vec![LoadCase::default()],
     }
 }

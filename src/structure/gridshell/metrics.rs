@@ -2,7 +2,7 @@
 
 use super::Place;
 use super::model::GridshellModel;
-use crate::structure::forces::Utilisation;
+use crate::structure::forces::{BetweenAll, Utilisation};
 use crate::structure::model::NodeId;
 use crate::structure::params::Quantity;
 use crate::structure::solver::Solver;
@@ -38,10 +38,8 @@ pub struct Answer<'a> {
     pub u: &'a [f64],
     /// Loads, in elimination order.
     pub f: &'a [f64],
-    /// Axial forces of second order; none in first order.
-    pub axial: Option<&'a [f64]>,
-    /// Uniform load on each member, N/m, global.
-    pub member_loads: &'a [Vector3<f64>],
+    /// What else decides the forces of the members.
+    pub between: BetweenAll<'a>,
 }
 
 /// What each member uses of the strength.
@@ -52,11 +50,8 @@ pub fn utilisations(
 ) -> impl Iterator<Item = Utilisation> {
     let strength = model.frame.material().strength;
     let section = solver.sections()[0];
-    (0..model.frame.members().len()).map(move |m| {
-        solver
-            .forces_of(m, answer.u, answer.axial.map(|axial| axial[m]), &answer.member_loads[m])
-            .utilisation(&section, strength)
-    })
+    (0..model.frame.members().len())
+        .map(move |m| solver.forces_of(m, answer.u, answer.between.of(m)).utilisation(&section, strength))
 }
 
 /// The largest values; `reactions` is room.
@@ -73,18 +68,19 @@ pub fn measure(
         raise(&mut metrics.deflection, Vector3::new(x, y, z).norm(), Place::Node(n));
         raise(&mut metrics.deflection_vertical, z.abs(), Place::Node(n));
     }
-    solver.reactions_into(answer.u, answer.axial, answer.f, reactions);
-    for NodeId(n) in model.frame.supported() {
+    solver.reactions_into(answer.u, answer.between.axial, answer.f, reactions);
+    for node in model.frame.supported() {
+        let NodeId(n) = node;
         let first = solver.system().first(n);
-        if model.frame.fixed()[n as usize][2] {
-            raise(&mut metrics.uplift, -reactions[first + 2], Place::Node(n));
+        if let Some(push) = solver.support_reaction(node, answer.u, reactions)[2] {
+            raise(&mut metrics.uplift, -push, Place::Node(n));
         }
         let slide = Vector3::new(answer.u[first], answer.u[first + 1], 0.0).norm();
         raise(&mut metrics.slide, slide, Place::Node(n));
     }
     for (m, used) in utilisations(model, solver, answer).enumerate() {
         let place = Place::Edge(model.edge[m]);
-        let elastic = if answer.axial.is_some() { used.ends } else { used.inner };
+        let elastic = if answer.between.axial.is_some() { used.ends } else { used.inner };
         raise(&mut metrics.utilisation_all, elastic, place);
         raise(&mut metrics.inner_all, used.inner, place);
         if model.counts[m] {

@@ -4,7 +4,7 @@ use super::AnalysisError;
 use super::panels::Panels;
 use super::supports::{outer_corners, supports};
 use crate::geometry::pattern::Pattern;
-use crate::structure::model::{FrameModel, FrameParts, LoadCase, Material, Member, NodalLoad};
+use crate::structure::model::{FrameModel, FrameParts, LoadCase, Material, Member, MemberKind, NodalLoad};
 use crate::structure::params::{ElementsPerMember, LoadParams, StructureParams};
 use crate::structure::section::Section;
 use nalgebra::Vector3;
@@ -48,7 +48,13 @@ impl GridshellModel {
                     nodes.push([p.x, p.y, p.z]);
                     (nodes.len() - 1) as u32
                 };
-                members.push(Member { start, end, up: [up.x, up.y, up.z], section: 0 });
+                members.push(Member {
+                    start,
+                    end,
+                    up: [up.x, up.y, up.z],
+                    section: 0,
+                    kind: MemberKind::RIGID,
+                });
                 edge.push(e as u32);
                 start = end;
             }
@@ -64,6 +70,7 @@ impl GridshellModel {
                 shear_modulus: e / (2.0 * (1.0 + material.poisson)),
                 density: material.density_kg_m3,
                 strength: material.yield_pa / material.gamma_m0,
+                thermal_expansion: 0.0,
             },
             shear_deformation: params.shear_deformation,
             supports: supports(pattern, &params.supports)?,

@@ -15,7 +15,7 @@ pub fn supports(pattern: &Pattern, rules: &[SupportParams]) -> Result<Vec<Suppor
         }
         for (_, named) in rule.nodes() {
             let nodes = nodes(pattern, named)?;
-            supports.extend(nodes.into_iter().map(|node| Support { node, fixed }));
+            supports.extend(nodes.into_iter().map(|node| Support::fixed(node, fixed)));
         }
     }
     Ok(supports)

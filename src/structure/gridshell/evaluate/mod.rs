@@ -7,7 +7,9 @@ pub use response::CombinationResult;
 use super::AnalysisError;
 use super::metrics::{self, Answer, Metrics};
 use super::model::GridshellModel;
+use crate::structure::action::Action;
 use crate::structure::buckling::{self, Mode};
+use crate::structure::forces::BetweenAll;
 use crate::structure::frame::{NAMING, silence};
 use crate::structure::mechanism;
 use crate::structure::params::{Family, Quantity, StructureParams};
@@ -35,6 +37,8 @@ struct State {
     name: String,
     cases: Combination,
     member_loads: Vec<Vector3<f64>>,
+    /// N if all ends were held: of temperature.
+    initial: Vec<f64>,
     first_axial: Vec<f64>,
     axial: Vec<f64>,
     metrics: Option<Metrics>,
@@ -88,6 +92,7 @@ impl<'a> Evaluator<'a> {
                 name: name.clone(),
                 cases: cases.iter().filter_map(|(name, &factor)| Some((case(name)?, factor))).collect(),
                 member_loads: Vec::new(),
+                initial: Vec::new(),
                 first_axial: Vec::new(),
                 axial: Vec::new(),
                 metrics: None,
@@ -148,7 +153,7 @@ impl<'a> Evaluator<'a> {
         if fallen.is_none() {
             let n = self.solver.system().unknowns();
             for (state, u) in self.states.iter_mut().zip(self.u.chunks(n)) {
-                self.solver.axial_forces(u, &mut state.axial);
+                self.solver.axial_forces(u, &state.initial, &mut state.axial);
             }
             self.current = Some(Current { height, tolerance });
         }
@@ -176,7 +181,8 @@ impl<'a> Evaluator<'a> {
         let n = self.solver.system().unknowns();
         for (state, f) in self.states.iter_mut().zip(self.f.chunks_mut(n)) {
             self.solver.member_loads(&state.cases, &mut state.member_loads);
-            self.solver.load_vector(&state.cases, &state.member_loads, f);
+            self.solver.initial_forces(&state.cases, &mut state.initial);
+            self.solver.load_vector(&state.cases, &state.member_loads, &state.initial, f);
             (state.metrics, state.mode, state.stable) = (None, None, self.params.order != 2);
         }
         self.first_known = false;
@@ -206,8 +212,8 @@ impl<'a> Evaluator<'a> {
         self.solver.solve(&mut u);
         let n = self.solver.system().unknowns();
         for (state, u) in self.states.iter_mut().zip(u.chunks(n)) {
-            self.solver.axial_forces(u, &mut state.first_axial);
-            silence(&self.solver, u, &mut state.first_axial);
+            self.solver.axial_forces(u, &state.initial, &mut state.first_axial);
+            silence(&self.solver, u, &state.initial, &mut state.first_axial);
         }
         self.first_known = true;
         u
@@ -221,28 +227,37 @@ impl<'a> Evaluator<'a> {
             return Ok(None);
         }
         let aim = Aim { second_order, tolerance };
-        if self.solver.has_factor() && self.solver.iterate(&self.f, &mut self.u, aim, &mut self.room) {
+        if self.solver.has_factor() && self.iterate(aim) {
             return Ok(None);
         }
         if !self.first_known {
             self.factored_at = height;
             let room = std::mem::take(&mut self.u);
             self.u = self.first_order(room);
-            if !second_order || self.solver.iterate(&self.f, &mut self.u, aim, &mut self.room) {
+            if !second_order || self.iterate(aim) {
                 return Ok(None);
             }
         }
         let n = self.solver.system().unknowns();
         for (s, state) in self.states.iter_mut().enumerate() {
             let columns = s * n..(s + 1) * n;
-            let f = &self.f[columns.clone()];
-            match self.solver.second_order(f, &state.first_axial, tolerance, LEAST_STEP) {
+            let action = Action {
+                f: self.f[columns.clone()].to_vec(),
+                initial: state.initial.clone(),
+                ..Action::default()
+            };
+            match self.solver.second_order(&action, &state.first_axial, tolerance, LEAST_STEP) {
                 Ok(found) => self.u[columns].copy_from_slice(&found.u),
                 Err(lost) => return Ok(Some(Fallen { combination: s, reason: lost.reason })),
             }
             state.stable = true;
         }
         Ok(None)
+    }
+
+    fn iterate(&mut self, aim: Aim) -> bool {
+        let initial: Vec<&[f64]> = self.states.iter().map(|state| state.initial.as_slice()).collect();
+        self.solver.iterate(&self.f, &initial, &mut self.u, aim, &mut self.room)
     }
 
     /// Makes sure that K + Kg(N) of every combination's second order is positive definite: that the answer is a stable
@@ -329,8 +344,11 @@ impl<'a> Evaluator<'a> {
         Answer {
             u: &self.u[index * n..(index + 1) * n],
             f: &self.f[index * n..(index + 1) * n],
-            axial: (self.params.order == 2).then_some(state.axial.as_slice()),
-            member_loads: &state.member_loads,
+            between: BetweenAll {
+                axial: (self.params.order == 2).then_some(state.axial.as_slice()),
+                initial: &state.initial,
+                loads: &state.member_loads,
+            },
         }
     }
 

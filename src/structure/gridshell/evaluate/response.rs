@@ -235,17 +235,15 @@ impl Evaluator<'_> {
     fn detail(&self, index: usize, metrics: Metrics) -> CombinationResult {
         let (state, answer) = (&self.states[index], self.answer(index));
         let nodes = self.model.frame.nodes().len();
-        let pushes =
-            by_node(self.solver.system(), &self.solver.reactions(answer.u, answer.axial, answer.f), nodes);
-        let fixed = self.model.frame.fixed();
-        let held = |n: usize| std::array::from_fn(|d| fixed[n][d].then_some(pushes[n][d]));
+        let pushes = self.solver.reactions(answer.u, answer.between.axial, answer.f);
+        let held = |node| (node, self.solver.support_reaction(node, answer.u, &pushes));
         CombinationResult {
             name: state.name.clone(),
             metrics,
             displacements: by_node(self.solver.system(), answer.u, nodes),
-            member_forces: self.solver.member_forces(answer.u, answer.axial, answer.member_loads),
+            member_forces: self.solver.member_forces(answer.u, answer.between),
             member_utilisation: metrics::utilisations(self.model, &self.solver, answer).collect(),
-            reactions: self.model.frame.supported().map(|node| (node, held(node.0 as usize))).collect(),
+            reactions: self.model.frame.supported().map(held).collect(),
         }
     }
 }
