@@ -15,6 +15,7 @@ mod cli_wrong_geometry;
 mod config_files;
 mod config_reference;
 mod files_of_others;
+mod handed_on;
 mod one_way;
 mod report_folder;
 mod report_numbers;
