@@ -9,10 +9,11 @@ mod remarks;
 mod supports;
 mod symmetry;
 
-use crate::config::{self, Config};
+use crate::config::{Config, ResolvedConfig};
 use crate::domain::params::Pinched;
 use crate::domain::{self, Domain, DomainError};
 use crate::evolve::{FAILED, Violation};
+use crate::geometry::distinct::Distinct;
 use crate::geometry::limits::{self, LimitExcess, Limits};
 use crate::geometry::metrics::{self, Fabrication};
 use crate::geometry::{self, Pattern, PatternParams, Rejection, Shaped};
@@ -22,7 +23,8 @@ use crate::mesh::distance::deletions;
 use crate::mesh::fold::{FoldError, Folded};
 use crate::mesh::isomorphism::{Equivalence, Symmetry, canonical_mesh_under};
 use crate::mesh::{BaseMesh, BaseMeshError, CanonicalMesh, Code, InitialMesh, QuadMesh};
-use crate::objectives::{self, AnalysedDesign, METRICS, Metric};
+use crate::objectives::params::FabricationParams;
+use crate::objectives::{self, AnalysedDesign, METRICS, Objective};
 use crate::random::Rng;
 use crate::search::operators::{Growth, Reach};
 use crate::search::params::EquivalenceParams;
@@ -32,7 +34,6 @@ use crate::skeleton::{self, InitialError};
 use crate::structure::StructureParams;
 use crate::structure::gridshell::{self, AnalysisError, Detailed, Proof, Response};
 use crate::surface::{self, Surface, SurfaceError, SurfaceParams};
-use std::path::Path;
 use std::sync::Arc;
 
 /// A config made ready: domain, surface, initial mesh, and the parameters of every stage.
@@ -45,8 +46,8 @@ pub struct Study {
     pub initial: InitialMesh,
     /// The same folded along the mirrors of the config: where strings are decoded. Without mirrors the mesh itself.
     pub start: Folded,
-    /// What is minimised, in the order of the config.
-    pub objectives: Vec<&'static Metric>,
+    /// What is minimised, then what is maximised, in the order of the config.
+    pub objectives: Vec<Objective>,
     /// By which rules strings grow.
     pub rules: Rules,
     symmetries: Vec<Symmetry>,
@@ -56,6 +57,7 @@ pub struct Study {
     baseline: Code,
     pinched: Pinched,
     pattern: PatternParams,
+    fabrication: FabricationParams,
     limits: Limits,
     structure: Option<StructureParams>,
     search: SearchParams,
@@ -66,9 +68,6 @@ pub struct Study {
 /// Why a config cannot be made ready.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
-    /// The config was not made by [`config::Project`] or [`config::load`], and does not pass what these check.
-    #[error("{}", .0.iter().map(|p| format!("{}: {}", p.key, p.message)).collect::<Vec<_>>().join("\n"))]
-    Config(Vec<config::Problem>),
     /// The surface is faulty.
     #[error("{0}")]
     Surface(#[from] SurfaceError),
@@ -173,7 +172,6 @@ impl StudyError {
     /// The key of the config that says what is wrong.
     pub fn key(&self, config: &Config) -> String {
         match self {
-            Self::Config(problems) => problems.first().map(|p| p.key.to_string()).unwrap_or_default(),
             Self::Surface(error) => error.key(),
             Self::Domain(DomainError::NotCovered { .. }) => match &config.surface {
                 SurfaceParams::Height { .. } => "surface.expression".to_owned(),
@@ -205,8 +203,14 @@ pub struct Design {
     pub pattern: Pattern,
     /// Its measures.
     pub fabrication: Fabrication,
-    /// The limits of the config, kept or not.
+    /// How many different pieces it has.
+    pub distinct: Distinct,
+    /// What pieces cost.
+    pub figures: FabricationParams,
+    /// The limits of the pattern in the config, kept or not.
     pub limits: Vec<LimitExcess>,
+    /// Requirements of metrics that the analysis alone does not tell, kept or not.
+    pub required: Vec<LimitExcess>,
     /// The answer of the structure, where one is configured and was asked for.
     pub response: Option<Response>,
 }
@@ -248,20 +252,12 @@ pub enum Effort {
 }
 
 impl Study {
-    /// Makes a config ready and reads the files that it names, relative to `folder`.
+    /// Makes a config ready.
     ///
     /// # Errors
     /// See [`StudyError`]; nothing has been evaluated then.
-    pub fn new(config: &Config, folder: &Path) -> Result<Self, StudyError> {
-        Self::of(config, &config::read_inputs(config, folder))
-    }
-
-    /// Makes a config ready; the files that it names are among `inputs`.
-    ///
-    /// # Errors
-    /// See [`StudyError`]; nothing has been evaluated then.
-    pub fn of(config: &Config, inputs: &Inputs) -> Result<Self, StudyError> {
-        config::check(config, inputs).map_err(StudyError::Config)?;
+    pub fn of(resolved: &ResolvedConfig) -> Result<Self, StudyError> {
+        let (config, inputs) = (resolved.config(), resolved.inputs());
         let surface = surface::build(&config.surface, inputs)?;
         let domain = Domain::resolve_for(&config.domain, &surface, inputs, config.pattern.grain())?;
         let initial = initial_mesh(config, &domain, inputs)?;
@@ -272,8 +268,11 @@ impl Study {
         }
         let symmetries: Vec<Symmetry> = symmetries.into_iter().map(|(_, symmetry)| symmetry).collect();
         let limits = Limits::of(&config.pattern.limits, config.pattern.target_length(&domain));
-        let objectives =
-            config.objectives.minimise.iter().filter_map(|name| objectives::find(name)).collect();
+        let named = config.objectives.names().enumerate();
+        let objectives = named.filter_map(|(place, name)| {
+            let maximised = config.objectives.is_maximised(place);
+            objectives::find(name).map(|metric| Objective { metric, maximised })
+        });
         let mirrors: Vec<domain::Symmetry> = config.topology.symmetry.iter().map(|m| m.kind()).collect();
         let start = start_of(config, &domain, &initial)?;
         let whole = start.unfold(&start.part.mesh, start.part.marker).0;
@@ -289,14 +288,14 @@ impl Study {
             mirrors,
             initial,
             start,
-            objectives,
+            objectives: objectives.collect(),
+            fabrication: config.fabrication,
             pinched: config.topology.pinched,
             limits,
             pattern: config.pattern.clone(),
             structure: config.structure.clone(),
             search: config.search.clone(),
-            // What is wrong with them was told when the config was checked; only a search needs them.
-            seeds: config::seeds::strings(&config.search, inputs).unwrap_or_default(),
+            seeds: resolved.seeds().to_vec(),
         })
     }
 
@@ -349,7 +348,7 @@ impl Study {
         };
         if let (true, Some(params)) = (worthwhile, &self.structure) {
             match gridshell::analyse(&design.pattern, params) {
-                Ok(response) => design.response = Some(response),
+                Ok(response) => design.answer(response, params),
                 Err(error) => return Err(Failure::of_structure(error, design)),
             }
         }
@@ -369,7 +368,7 @@ impl Study {
         let Some(params) = &self.structure else { return Ok((design, None)) };
         match gridshell::analyse_detailed(&design.pattern, params, proof) {
             Ok(detailed) => {
-                design.response = Some(detailed.response.clone());
+                design.answer(detailed.response.clone(), params);
                 Ok((design, Some(detailed)))
             }
             Err(error) => Err(Failure::of_structure(error, design)),
@@ -392,8 +391,20 @@ impl Study {
         let surface = self.surface.as_ref();
         let Shaped { pattern, refused } = geometry::shape(&topology, &self.domain, surface, &self.pattern)?;
         let fabrication = metrics::measure(&pattern, &topology, &self.domain);
-        let limits = limits::excesses(&(&fabrication).into(), &self.limits);
-        let design = Design { topology, pattern, fabrication, limits, response: None };
+        let mut design = Design {
+            distinct: Distinct::of(&pattern, self.fabrication.tolerance_m),
+            figures: self.fabrication,
+            limits: limits::excesses(&(&fabrication).into(), &self.limits),
+            required: Vec::new(),
+            response: None,
+            topology,
+            pattern,
+            fabrication,
+        };
+        let limited = self.pattern.metric_limits.iter();
+        let more = limited.filter_map(|l| objectives::limit(&design.analysed(), &l.quantity, l.max, l.min));
+        let more: Vec<LimitExcess> = more.collect();
+        design.limits.extend(more);
         match refused {
             None => Ok(design),
             Some(rejection @ Rejection::NotFinite { .. }) => Err(rejection.into()),
@@ -411,14 +422,23 @@ impl Study {
     /// Everything that is known of a developed design, as the search and the files take it.
     pub fn evaluation(&self, design: &Design) -> Evaluation {
         let analysed = design.analysed();
-        let objectives: Vec<f64> =
-            self.objectives.iter().filter_map(|objective| (objective.value)(&analysed)).collect();
+        let values: Vec<Option<f64>> = self.objectives.iter().map(|o| o.value(&analysed)).collect();
+        let turned = self.objectives.iter().zip(&values).filter_map(|(o, value)| Some(o.turned((*value)?)));
+        let objectives: Vec<f64> = turned.collect();
+        let mut metrics = design.metrics();
+        for (objective, value) in self.objectives.iter().zip(values).filter(|(o, _)| o.maximised) {
+            // As it is compared, so it is told.
+            let place = METRICS.iter().position(|metric| metric.name == objective.metric.name);
+            if let Some(metric) = place.and_then(|place| metrics.get_mut(place)) {
+                *metric = value.map(round_significant);
+            }
+        }
         let (measure, reason) = design.excess();
         Evaluation {
             violation: stage_1(measure),
             reason,
             objectives: if objectives.len() == self.objectives.len() { objectives } else { Vec::new() },
-            metrics: design.metrics(),
+            metrics,
             governing: objectives::governing(&analysed),
             structural: design.response.is_some(),
         }
@@ -499,8 +519,19 @@ impl Design {
         AnalysedDesign {
             topology: &self.topology,
             fabrication: &self.fabrication,
+            distinct: &self.distinct,
+            figures: &self.figures,
             response: self.response.as_ref(),
         }
+    }
+
+    /// Takes the answer of the structure, and asks what is required of other metrics.
+    fn answer(&mut self, response: Response, params: &StructureParams) {
+        self.response = Some(response);
+        let asked = params.requirements.iter().filter(|required| required.analysed().is_none());
+        let required =
+            asked.filter_map(|r| objectives::limit(&self.analysed(), &r.quantity.to_string(), r.max, r.min));
+        self.required = required.collect();
     }
 
     /// All metrics that it has, in the order of the registry, rounded as they are compared and written.
@@ -513,7 +544,9 @@ impl Design {
         let limits = self.limits.iter().map(|l| (l.name.to_owned(), l.value, l.limit, l.excess));
         let requirements = self.response.iter().flat_map(|r| &r.requirements);
         let requirements = requirements.map(|r| (r.quantity.to_string(), r.value, r.limit, r.excess()));
-        let exceeded: Vec<_> = limits.chain(requirements).filter(|&(.., excess)| excess > 0.0).collect();
+        let required = self.required.iter().map(|l| (l.name.to_owned(), l.value, l.limit, l.excess));
+        let exceeded: Vec<_> =
+            limits.chain(requirements).chain(required).filter(|&(.., excess)| excess > 0.0).collect();
         let words: Vec<String> = exceeded
             .iter()
             .map(|(name, value, limit, _)| format!("{name} {value:.4} (limit {limit})"))

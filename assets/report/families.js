@@ -7,7 +7,7 @@ function startFamilies() {
     const head = objectives.map((o) => `<th scope="col">best ${escapeHtml(o.label)}${o.unit ? ` <span class="unit">${escapeHtml(o.unit)}</span>` : ""}</th>`);
     const rows = families.map((family) => {
       const best = objectives.map((o) => {
-        const d = d3.least(family.members.filter((m) => known(value(m, o))), (m) => value(m, o));
+        const d = d3.least(family.members.filter((m) => known(value(m, o))), (m) => relative(m, o));
         return d ? scoreCell(d, o, true) : "<td class='score none'>–</td>";
       });
       const active = state.family === family;

@@ -60,7 +60,7 @@ function startGallery() {
   const gap = (d) => d3.sum(objectives, (o) => (relative(d, o) ?? 2) ** 2);
   function order() {
     const key = sort.value;
-    const rank = key === "balanced" ? gap : key === "family" ? (d) => families.indexOf(d.family) : (d) => value(d, objectives[Number(key)]) ?? Infinity;
+    const rank = key === "balanced" ? gap : key === "family" ? (d) => families.indexOf(d.family) : (d) => relative(d, objectives[Number(key)]) ?? Infinity;
     return d3.sort(designs, (a, b) => d3.descending(a.baseline, b.baseline) || d3.ascending(rank(a), rank(b)) || d3.ascending(a.id, b.id));
   }
   function refresh() {

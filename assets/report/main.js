@@ -8,6 +8,8 @@ function writeHead() {
   const counts = [["designs on the front", whole(frontDesigns.length)], ["evaluated", whole(run.evaluations)], ["feasible", whole(run.feasible) + share],
     ["duplicates refused", whole(run.duplicates_refused)], ["generations", whole(d3.max(facts.generations, (g) => g.generation) ?? 0)], ["seed", run.seed.length > 9 ? `${run.seed.slice(0, 4)}…${run.seed.slice(-3)}` : run.seed]];
   byId("counts").innerHTML = counts.map(([name, text]) => `<div><dt>${name}</dt><dd>${escapeHtml(text)}</dd></div>`).join("");
+  const larger = objectives.filter((o) => o.maximised).map((o) => o.label);
+  if (larger.length) byId("better").textContent = `Better when larger: ${larger.join(", ")}; all other objectives are better when smaller.`;
   byId("foot").textContent = `Written by quadrille ${run.program_version}. Method: Oval, Mesnil, Van Mele, Baverel, Block, “A vector encoding for topology finding of structured quad-based patterns for surface structures”.`;
   byId("config").textContent = facts.config_toml;
 }

@@ -25,13 +25,14 @@ for (const objective of objectives) {
   const values = designs.map((d) => value(d, objective)).filter(known);
   objective.least = d3.min(values);
   objective.most = d3.max(values);
+  objective.best = objective.maximised ? objective.most : objective.least;
 }
 
-/** 0 for the smallest, 1 for the largest of all designs; null where there is no value. */
+/** 0 for the best, 1 for the worst of all designs; null where there is no value. */
 function relative(design, objective) {
   const v = value(design, objective);
   if (!known(v)) return null;
-  return objective.most > objective.least ? (v - objective.least) / (objective.most - objective.least) : 0;
+  return objective.most > objective.least ? Math.abs(v - objective.best) / (objective.most - objective.least) : 0;
 }
 
 /** Divided by the largest, as in the paper's Figure 24. */

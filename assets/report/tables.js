@@ -1,14 +1,14 @@
 // Tables: the shortlist as the paper's Figure 24, all designs, and what the metrics mean.
 
-/** A cell coloured from best to worst, the smallest marked. */
+/** A cell coloured from best to worst, the best marked. */
 function scoreCell(design, objective, absolute) {
   const v = value(design, objective), r = relative(design, objective), n = normalised(design, objective);
   if (r === null) return "<td class='score none'>–</td>";
-  const best = v === objective.least;
+  const best = v === objective.best, most = objective.maximised ? "largest" : "smallest";
   const text = absolute ? number(v) : n === null ? number(v) : two(n);
   const style = best ? "" : ` style="background:${bestToWorst(r)}"`;
-  const words = `${objective.label} ${withUnit(v, objective)}${best ? ", the smallest" : ""}`;
-  return `<td class="score${best ? " best" : ""}"${style} title="${escapeHtml(words)}">${best ? "<span class='mark'>▼<span class='words'> smallest </span></span>" : ""}${text}</td>`;
+  const words = `${objective.label} ${withUnit(v, objective)}${best ? `, the ${most}` : ""}`;
+  return `<td class="score${best ? " best" : ""}"${style} title="${escapeHtml(words)}">${best ? `<span class='mark'>${objective.maximised ? "▲" : "▼"}<span class='words'> ${most} </span></span>` : ""}${text}</td>`;
 }
 const idButton = (d) => `<button type="button" class="link" data-pick="${escapeHtml(d.id)}">${d.baseline ? "Baseline" : escapeHtml(d.id)}</button>`;
 const stringOf = (text) => (text ? `<code>${escapeHtml(text)}</code>` : "<span class='muted'>empty</span>");
@@ -24,7 +24,7 @@ function listenForPicks(element) {
 }
 
 // What a first reader should compare: the initial mesh, the balanced design, and the best of every objective.
-const bestIn = (o) => d3.least(frontDesigns.filter((d) => known(value(d, o))), (d) => value(d, o));
+const bestIn = (o) => d3.least(frontDesigns.filter((d) => known(value(d, o))), (d) => relative(d, o));
 state.pinned = [...new Set([balanced, ...objectives.map(bestIn)].filter((d) => d && !d.baseline))].slice(0, 7);
 
 function startShortlist() {

@@ -32,9 +32,9 @@ const TRIES: usize = 1000;
 
 /// Prints the two lines.
 pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
-    let project = args.config.load(&[])?;
-    let study = args.config.study(&project)?;
-    let config = &project.config;
+    let resolved = args.config.load(&[])?;
+    let study = args.config.study(&resolved)?;
+    let config = resolved.config();
     let topologies = different(&study, config.run.seed.unwrap_or(0), args.designs as usize);
     console.note(&format!("evaluating {} random designs", topologies.len()));
     let pool = thread_pool(args.threads.unwrap_or(config.run.threads))?;
@@ -45,8 +45,8 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
         return Err(CliError::Failed("none of these designs has all objectives".into()));
     };
     outln!("# 1 % and 95 % quantiles of {} of {} random designs", points.count(), evaluations.len());
-    outln!("ideal = {}", list(&axes.ideal));
-    outln!("reference = {}", list(&axes.reference));
+    outln!("ideal = {}", list(&config.objectives.turned(&axes.ideal)));
+    outln!("reference = {}", list(&config.objectives.turned(&axes.reference)));
     Ok(ExitCode::SUCCESS)
 }
 

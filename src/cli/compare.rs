@@ -88,7 +88,7 @@ impl Comparison {
         let entries: Vec<Result<Entry, CliError>> = thread_pool(threads)?.install(all);
         Ok(Self {
             entries: entries.into_iter().collect::<Result<_, _>>()?,
-            objectives: study.objectives.iter().map(|objective| objective.name).collect(),
+            objectives: study.objectives.iter().map(|objective| objective.metric.name).collect(),
         })
     }
 

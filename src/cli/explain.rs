@@ -4,6 +4,7 @@ use super::folder_args::{FolderArgs, find, refuse_other_kind};
 use super::{CliError, Console};
 use quadrille::files::atomic;
 use quadrille::files::names::EXPLAINED;
+use quadrille::geometry::limits::LimitExcess;
 use quadrille::objectives::METRICS;
 use quadrille::output::designs::id;
 use quadrille::output::explanation::explanation;
@@ -58,16 +59,13 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     };
     outln!("\nlimits of the pattern");
     for limit in &developed.design.limits {
-        let state = if limit.excess > 0.0 { "EXCEEDED" } else { "kept" };
-        outln!(
-            "  {:<22} {:>12}  limit {:>10}  {state}",
-            limit.name,
-            significant(limit.value),
-            significant(limit.limit)
-        );
+        kept(limit, "limit");
     }
     if let Some(results) = &developed.results {
         requirements(results, &developed.design.pattern.positions);
+        for required in &developed.design.required {
+            kept(required, if required.upper { "≤" } else { "≥" });
+        }
         also(results, &developed.design.pattern.positions);
         near_points(results);
     }
@@ -85,6 +83,13 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// One limit: what there is, what may be, and whether it is kept.
+fn kept(limit: &LimitExcess, sign: &str) {
+    let state = if limit.excess > 0.0 { "EXCEEDED" } else { "kept" };
+    let [value, bound] = [limit.value, limit.limit].map(significant);
+    outln!("  {:<22} {value:>12}  {sign} {bound:>10}  {state}", limit.name);
+}
+
 /// The name of a metric with its unit; each quantity that can be required is one.
 fn column(name: &str) -> &str {
     METRICS.iter().find(|metric| metric.name == name).map_or(name, |metric| metric.column)
@@ -93,11 +98,13 @@ fn column(name: &str) -> &str {
 /// Each objective against the best of the front.
 fn standing(loaded: &Loaded, row: &EvaluatedRow) {
     outln!("\nobjectives, and the range of the front");
-    for (index, name) in loaded.config.objectives.minimise.iter().enumerate() {
+    let objectives = &loaded.config.objectives;
+    for (index, name) in objectives.names().enumerate() {
         let column = column(name);
-        let front = loaded.front.iter().filter_map(|&f| loaded.evaluated[f].objectives.get(index).copied());
+        let value = |row: &EvaluatedRow| objectives.turned(&row.objectives).get(index).copied();
+        let front = loaded.front.iter().filter_map(|&f| value(&loaded.evaluated[f]));
         let (low, high) = front.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
-        let own = row.objectives.get(index).map_or("–".into(), |&value| significant(value));
+        let own = value(row).map_or("–".into(), significant);
         if low.is_finite() {
             outln!("  {column:<22} {own:>12}  {} to {}", significant(low), significant(high));
         } else {

@@ -9,19 +9,26 @@ use quadrille::geometry::Pattern;
 use quadrille::geometry::conway::{PolyMesh, ambo, dual, join};
 use quadrille::output::compas::compas;
 use quadrille::output::designs::id;
+use quadrille::output::dxf::dxf;
+use quadrille::output::frame_model::frame_model;
+use quadrille::output::handed::Handed;
+use quadrille::output::load::Loaded;
 use quadrille::output::obj::obj;
+use quadrille::output::opensees::opensees;
 use quadrille::output::polygons::Polygons;
 use quadrille::output::results::{DesignFiles, Developed};
+use quadrille::output::saf::saf;
 use quadrille::output::svg;
 use quadrille::output::vtu::{Grid, vtu};
 use quadrille::structure::gridshell::Proof;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Export a design of a results folder: mesh, picture, or structural results.
+/// Export a design of a results folder: mesh, picture, structural results, or the structure for another program.
 ///
 /// The design is made again from its string. One file goes to stdout unless --out is given; vtu (panels, members) and
-/// csv (nodes, members) are two files each and need --out.
+/// csv (nodes, members) are two files each and need --out. frame and opensees hold one combination each: all of them
+/// with --out, or the one that --combination names.
 #[derive(clap::Args)]
 pub struct Args {
     #[command(flatten)]
@@ -35,6 +42,9 @@ pub struct Args {
     /// A Conway operator on the pattern first (meshes and pictures only).
     #[arg(long, value_enum)]
     pattern: Option<Operator>,
+    /// The combination of loads (frame and opensees only) [default: each].
+    #[arg(long, value_name = "NAME")]
+    combination: Option<String>,
     /// Write into this folder, as ID.obj and so on.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -52,6 +62,14 @@ enum Format {
     Svg,
     /// Tables of nodes and members with results.
     Csv,
+    /// DXF (R12): members as lines, panels as 3D faces, on layers; metres, z up.
+    Dxf,
+    /// The model that `quadrille frame` reads, one file a combination.
+    Frame,
+    /// A Tcl deck for OpenSees, one file a combination.
+    Opensees,
+    /// Structural Analysis Format: a workbook (.xlsx) that RFEM, SCIA and others read.
+    Saf,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -67,6 +85,10 @@ enum Operator {
 /// Makes the design and writes it.
 pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     args.out.as_deref().map_or(Ok(()), refuse_file)?;
+    if args.combination.is_some() && !matches!(args.format, Format::Frame | Format::Opensees) {
+        let message = "--combination is for --format frame and opensees; all others hold every combination";
+        return Err(CliError::Input(message.into()));
+    }
     let (loaded, study) = args.run.look(console)?;
     let row = find(&loaded, &args.design)?;
     let id = id(row.code);
@@ -77,7 +99,13 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     }
     let files = match args.pattern {
         Some(operator) => transformed(operator.apply(&developed.design.pattern), &id, operator, args.format)?,
-        None => plain(&developed, &id, args.format),
+        None => match args.format {
+            Format::Dxf => vec![(format!("{id}.dxf"), drawn(&developed, &id))],
+            Format::Frame | Format::Opensees | Format::Saf => {
+                handed_on(&developed, &loaded, &id, args.format, args.combination.as_deref())?
+            }
+            format => plain(&developed, &id, format),
+        },
     };
     write(&args, files)
 }
@@ -90,9 +118,54 @@ fn plain(developed: &Developed, id: &str, format: Format) -> DesignFiles {
         Format::Svg => &[".svg"],
         Format::Vtu => &[".vtu", "_members.vtu"],
         Format::Csv => &["_nodes.csv", "_members.csv"],
+        Format::Dxf | Format::Frame | Format::Opensees | Format::Saf => &[],
     };
     let wanted = |name: &String| endings.iter().any(|ending| *name == format!("{id}{ending}"));
     developed.files(id).into_iter().filter(|(name, _)| wanted(name)).collect()
+}
+
+/// The pattern with its supports, as DXF.
+fn drawn(developed: &Developed, id: &str) -> Vec<u8> {
+    let supports: Vec<[f64; 3]> = developed.supports().into_iter().map(|(position, _)| position).collect();
+    dxf(&Polygons::from(&developed.design.pattern), &supports, id)
+}
+
+/// The structure for another program: one file, or one a combination.
+fn handed_on(
+    developed: &Developed,
+    loaded: &Loaded,
+    id: &str,
+    format: Format,
+    combination: Option<&str>,
+) -> Result<DesignFiles, CliError> {
+    let design = loaded.config.structure.as_ref().and_then(|params| Handed::of(developed, params, id));
+    let Some(design) = design else {
+        return Err(CliError::Failed(format!("design {id}: there is no analysed structure to hand on")));
+    };
+    let failed = |error: &dyn std::fmt::Display| CliError::Failed(format!("design {id}: {error}"));
+    if format == Format::Saf {
+        return Ok(vec![(format!("{id}.xlsx"), saf(&design).map_err(|error| failed(&error))?)]);
+    }
+    let named = design.file_names().into_iter().zip(&design.combinations);
+    let wanted: Vec<_> = named.filter(|(_, (name, _))| combination.is_none_or(|own| own == *name)).collect();
+    if wanted.is_empty() {
+        let names: Vec<&str> = design.combinations.iter().map(|(name, _)| *name).collect();
+        let (found, all) = (combination.unwrap_or_default(), names.join(", "));
+        return Err(CliError::Input(format!(
+            "--combination {found}: there is none of that name; allowed: {all}"
+        )));
+    }
+    let file = |(file, (name, factors)): (String, &(&str, Vec<(usize, f64)>))| {
+        let file = format!("{id}_{file}");
+        Ok(match format {
+            Format::Frame => {
+                let bytes = frame_model(&design, (name, factors)).map_err(|error| failed(&error))?;
+                (format!("{file}.json"), bytes)
+            }
+            _ => (format!("{file}.tcl"), opensees(&design, (name, factors), &file)),
+        })
+    };
+    wanted.into_iter().map(file).collect()
 }
 
 impl Operator {
@@ -134,9 +207,10 @@ fn transformed(
             };
             ("vtu", vtu(&grid))
         }
-        Format::Csv => {
+        Format::Dxf => ("dxf", dxf(&polygons, &[], &name)),
+        Format::Csv | Format::Frame | Format::Opensees | Format::Saf => {
             let message =
-                "--format csv lists what was analysed, which is the pattern itself; leave --pattern out";
+                "this --format is of what was analysed, which is the pattern itself; leave --pattern out";
             return Err(CliError::Input(message.into()));
         }
     };
@@ -150,7 +224,10 @@ fn write(args: &Args, files: DesignFiles) -> Result<ExitCode, CliError> {
         }
         (None, _) => {
             let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
-            return Err(CliError::Input(format!("{} are two files; give --out DIR", names.join(" and "))));
+            return Err(CliError::Input(format!(
+                "{} are several files; give --out DIR",
+                names.join(" and ")
+            )));
         }
         (Some(folder), _) => {
             std::fs::create_dir_all(folder).map_err(CliError::write(folder))?;

@@ -6,7 +6,7 @@ use super::folder_args::{folder_exists, refuse_other_kind};
 use super::topology::parse_string;
 use super::{CliError, Console};
 use quadrille::files::atomic;
-use quadrille::objectives::Metric;
+use quadrille::objectives::Objective;
 use quadrille::output::number::significant;
 use quadrille::search::operators::Reach;
 use std::collections::BTreeSet;
@@ -41,12 +41,12 @@ const LISTED: usize = 5;
 
 /// Evaluates and ranks.
 pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
-    let project = args.config.load(&[])?;
+    let resolved = args.config.load(&[])?;
     let tokens = parse_string("--string", &args.string)?;
     if let Some(path) = &args.out {
         writable(path)?;
     }
-    let study = args.config.study(&project)?;
+    let study = args.config.study(&resolved)?;
     let expressed = study.decode(&tokens).expressed;
     let mut seen = BTreeSet::from([study.topology(&tokens).code]);
     let mut named = vec![(expressed.to_string(), expressed.clone())];
@@ -56,7 +56,7 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
         }
     }
     console.note(&format!("evaluating {} different designs one strip away", named.len() - 1));
-    let comparison = Comparison::of(&study, named, project.config.run.threads, None)?;
+    let comparison = Comparison::of(&study, named, resolved.config().run.threads, None)?;
     let count = comparison.entries.len() - 1;
     let feasible = comparison.entries[1..].iter().filter(|e| e.evaluation.violation.is_feasible()).count();
     let meant = match tokens == expressed {
@@ -102,7 +102,7 @@ fn verdict(won: usize, objectives: usize) -> String {
 }
 
 /// Prints the best feasible neighbours of one objective; true if the given design is better than all of them.
-fn rank(comparison: &Comparison, index: usize, objective: &Metric) -> bool {
+fn rank(comparison: &Comparison, index: usize, objective: &Objective) -> bool {
     let value = |entry: usize| comparison.entries[entry].evaluation.objectives.get(index).copied();
     let own = value(0);
     let mut others: Vec<(f64, usize)> = (1..comparison.entries.len())
@@ -112,11 +112,16 @@ fn rank(comparison: &Comparison, index: usize, objective: &Metric) -> bool {
     others.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let own_is_feasible = comparison.entries[0].evaluation.violation.is_feasible();
     let best = own_is_feasible && own.zip(others.first()).is_some_and(|(own, &(other, _))| own < other);
-    let shown = own.map_or_else(|| "–".into(), significant);
-    outln!("\n{}: {shown}{}", objective.column, if best { ", better than all neighbours" } else { "" });
+    let told = |value: f64| significant(objective.turned(value));
+    let shown = own.map_or_else(|| "–".into(), told);
+    outln!(
+        "\n{}: {shown}{}",
+        objective.metric.column,
+        if best { ", better than all neighbours" } else { "" }
+    );
     for (value, entry) in others.into_iter().take(LISTED) {
         let entry = &comparison.entries[entry];
-        outln!("  {:>12}  {}  {}", significant(value), entry.id(), entry.name);
+        outln!("  {:>12}  {}  {}", told(value), entry.id(), entry.name);
     }
     best
 }

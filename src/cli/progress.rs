@@ -8,7 +8,7 @@ use quadrille::mesh::Code;
 use quadrille::output::designs::id;
 use quadrille::output::number::significant;
 use quadrille::output::obstacles::{Obstacles, initial_mesh};
-use quadrille::search::{Evaluation, GenerationRow, Observer, Progress};
+use quadrille::search::{Evaluation, GenerationRow, ObjectivesParams, Observer, Progress};
 use std::time::Instant;
 
 /// Shows the progress of a run on stderr.
@@ -27,7 +27,7 @@ pub struct Display {
     first: Obstacles,
     /// Their objectives, as far as they have all of them; the names of these.
     values: Vec<Vec<f64>>,
-    objectives: Vec<String>,
+    objectives: ObjectivesParams,
     /// Code of the initial mesh, and how it stands once that is known.
     baseline: Code,
     initial: Option<String>,
@@ -56,7 +56,7 @@ impl Display {
             hypervolume: None,
             first: Obstacles::default(),
             values: Vec::new(),
-            objectives: config.objectives.minimise.clone(),
+            objectives: config.objectives.clone(),
             baseline,
             initial: None,
         }
@@ -231,14 +231,14 @@ impl Limits {
 }
 
 /// What is said of objectives that add nothing, and what to do.
-fn redundant(redundancy: Redundancy, names: &[String], designs: usize) -> String {
-    let name = |m: usize| names.get(m).map_or("", String::as_str);
+fn redundant(redundancy: Redundancy, params: &ObjectivesParams, designs: usize) -> String {
+    let name = |m: usize| params.names().nth(m).map_or("", String::as_str);
     let designs = format!("all {designs} designs of the first generation");
     match redundancy {
         Redundancy::Constant { objective, value } => format!(
             "objective \"{}\" is {} for {designs}: it tells none from another; leave it out",
             name(objective),
-            significant(value)
+            significant(if params.is_maximised(objective) { -value } else { value })
         ),
         Redundancy::Dependent { objectives: [a, b], opposed: false } => format!(
             "objectives \"{}\" and \"{}\" put {designs} in the same order, so one is a function of the other; \

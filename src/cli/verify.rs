@@ -43,7 +43,7 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
         }
         None => front(&loaded, &told),
     };
-    let all = || rows.par_iter().map(|row| differences(&study, row)).collect();
+    let all = || rows.par_iter().map(|row| differences(&study, row, &loaded.lacking)).collect();
     let found: Vec<Vec<String>> = thread_pool(0)?.install(all);
     for contradiction in &told {
         outln!("{}", contradiction.message);
@@ -75,20 +75,22 @@ fn front<'a>(loaded: &'a Loaded, told: &[Contradiction]) -> Vec<&'a EvaluatedRow
     front.chain(others.map(|(_, row)| row)).collect()
 }
 
-/// Everything that is not what the file says.
-fn differences(study: &Study, row: &EvaluatedRow) -> Vec<String> {
+/// Everything that is not what the file says; it says nothing of the columns that it lacks.
+fn differences(study: &Study, row: &EvaluatedRow, lacking: &[&str]) -> Vec<String> {
     if !same_code(study, &row.tokens, row.code) {
         return vec![format!("string {} no longer gives this design", row.tokens)];
     }
     let now = evaluate(study, &row.tokens).sanitised(study.objectives.len());
     let identity = study.identify(&row.tokens);
-    let mut differences = words(row, &now, &identity);
+    let mut differences = words(row, &now, &identity, lacking);
     let measure = ("violation", Some(row.violation.measure), Some(now.violation.measure));
     let metrics = METRICS
         .iter()
         .enumerate()
         .map(|(i, metric)| (metric.column, row.metrics.get(i), now.metrics.get(i).copied().flatten()));
-    let numbers = std::iter::once(measure).chain(metrics).filter(|&(_, then, now)| !agree(then, now));
+    let numbers = std::iter::once(measure)
+        .chain(metrics)
+        .filter(|&(column, then, now)| !lacking.contains(&column) && !agree(then, now));
     differences.extend(numbers.map(|(column, then, now)| {
         let shown = |value: Option<f64>| value.map_or("none".into(), |value| value.to_string());
         format!("{column}: file {}, now {}", shown(then), shown(now))
@@ -97,7 +99,7 @@ fn differences(study: &Study, row: &EvaluatedRow) -> Vec<String> {
 }
 
 /// What is no number of its own.
-fn words(row: &EvaluatedRow, now: &Evaluation, identity: &Identity) -> Vec<String> {
+fn words(row: &EvaluatedRow, now: &Evaluation, identity: &Identity, lacking: &[&str]) -> Vec<String> {
     let (then, reason) = (row.violation, row.reason.to_string());
     // Folders of older versions name none.
     let symmetry = (row.symmetries != Symmetries::default())
@@ -108,8 +110,8 @@ fn words(row: &EvaluatedRow, now: &Evaluation, identity: &Identity) -> Vec<Strin
         ("violation_stage", then.stage.to_string(), now.violation.stage.to_string()),
         ("reason", reason, now.reason.clone()),
     ];
-    // Folders of older versions do not name them.
     let governing = GOVERNING.iter().zip(row.governing.iter().zip(&now.governing));
+    let governing = governing.filter(|((column, _), _)| !lacking.contains(column));
     let governing = governing.map(|((column, _), (then, now))| (*column, then.to_string(), now.clone()));
     let different =
         cells.into_iter().chain(symmetry).chain(governing).filter(|(_, then, now)| !same_words(then, now));

@@ -2,7 +2,8 @@
 
 use super::Config;
 use crate::domain::params::{CornerRule, Corners, LengthUnit, LoopParams};
-use crate::geometry::params::{Density, PatternParams};
+use crate::geometry::params::{Density, MetricLimitParams, PatternParams};
+use crate::objectives;
 use crate::search::params::{SearchParams, Seeds};
 use crate::skeleton::params::InitialMesh;
 use crate::structure::model::Direction;
@@ -26,7 +27,11 @@ pub fn describe(config: &Config) -> Vec<String> {
         Some(structure) => lines.extend(describe_structure(structure)),
         None => lines.push("structure: not analysed (there is no [structure])".into()),
     }
-    lines.push(format!("minimised: {}", config.objectives.minimise.join(", ")));
+    lines.extend(config.pattern.metric_limits.iter().map(describe_limit));
+    let Config { objectives, .. } = config;
+    for (what, names) in [("minimised", &objectives.minimise), ("maximised", &objectives.maximise)] {
+        lines.extend((!names.is_empty()).then(|| format!("{what}: {}", names.join(", "))));
+    }
     lines.extend(describe_search(config));
     lines
 }
@@ -34,9 +39,9 @@ pub fn describe(config: &Config) -> Vec<String> {
 /// Things that are allowed but seldom meant.
 pub fn warnings(config: &Config) -> Vec<String> {
     let mut warnings = Vec::new();
-    let objectives = &config.objectives.minimise;
+    let objectives: Vec<&str> = config.objectives.names().map(String::as_str).collect();
     if let Some(structure) = &config.structure {
-        pinned_objectives(structure, objectives, &mut warnings);
+        pinned_objectives(structure, &objectives, &mut warnings);
         if structure.requirements.is_empty() {
             warnings.push(
                 "no [[structure.requirement]]: nothing limits deflection, utilisation or buckling".into(),
@@ -59,7 +64,7 @@ pub fn warnings(config: &Config) -> Vec<String> {
 
 /// What becomes of a front that holds most designs.
 fn many_objectives(config: &Config) -> String {
-    let (count, search) = (config.objectives.minimise.len(), &config.search);
+    let (count, search) = (config.objectives.count(), &config.search);
     let survivors = match search.survival.by_hypervolume(count) {
         true => "which of them survive is decided by what they add to the hypervolume",
         false => {
@@ -71,20 +76,18 @@ fn many_objectives(config: &Config) -> String {
 }
 
 /// A sized height is the least that meets all requirements: one of them is met exactly.
-fn pinned_objectives(structure: &StructureParams, objectives: &[String], warnings: &mut Vec<String>) {
+fn pinned_objectives(structure: &StructureParams, objectives: &[&str], warnings: &mut Vec<String>) {
     if !matches!(structure.height, HeightParams::Sized { .. }) {
         return;
     }
     for requirement in &structure.requirements {
-        let name = match requirement.quantity {
-            Quantity::BucklingFactor => "buckling",
-            Quantity::Deflection => "deflection",
-            Quantity::Utilisation => "utilisation",
-            Quantity::DeflectionVertical | Quantity::UtilisationAll | Quantity::UtilisationVonMises => {
-                continue;
-            }
+        let name = match requirement.analysed() {
+            Some(Quantity::BucklingFactor | Quantity::Buckling) => "buckling",
+            Some(Quantity::Deflection) => "deflection",
+            Some(Quantity::Utilisation) => "utilisation",
+            _ => continue,
         };
-        if objectives.iter().any(|objective| objective == name) {
+        if objectives.contains(&name) {
             warnings.push(format!(
                 "objective \"{name}\": the height is sized to the requirements, so the governing one sits at its limit \
                  in nearly every design and says little; minimise \"mass\" instead"
@@ -313,19 +316,42 @@ fn describe_load(load: &LoadParams) -> String {
 }
 
 fn describe_requirement(requirement: &RequirementParams) -> String {
-    let (quantity, unit) = match requirement.quantity {
-        Quantity::Deflection => ("deflection", " m"),
-        Quantity::DeflectionVertical => ("vertical deflection", " m"),
-        Quantity::Utilisation => ("utilisation", ""),
-        Quantity::UtilisationAll => ("utilisation of all members", ""),
-        Quantity::UtilisationVonMises => ("von Mises utilisation", ""),
-        Quantity::BucklingFactor => ("first buckling factor", ""),
+    let quantity = match requirement.analysed() {
+        Some(Quantity::DeflectionVertical) => "vertical deflection".to_owned(),
+        Some(Quantity::UtilisationAll) => "utilisation of all members".to_owned(),
+        Some(Quantity::UtilisationVonMises) => "von Mises utilisation".to_owned(),
+        Some(Quantity::BucklingFactor) => "first buckling factor".to_owned(),
+        _ => in_words(&requirement.quantity.to_string()),
     };
-    let limit = match (requirement.max, requirement.min) {
+    let limit = limit(&requirement.quantity.to_string(), requirement.max, requirement.min);
+    let combination = match (&requirement.combination, requirement.analysed()) {
+        (Some(name), _) => format!(" under {name}"),
+        (None, Some(_)) => " under every combination that it is told of".into(),
+        (None, None) => String::new(),
+    };
+    format!("required: {quantity} {limit}{combination}")
+}
+
+fn describe_limit(limited: &MetricLimitParams) -> String {
+    let MetricLimitParams { quantity, max, min } = limited;
+    format!("pattern required: {} {}", in_words(quantity), limit(quantity, *max, *min))
+}
+
+/// The name of a metric as people say it.
+fn in_words(name: &str) -> String {
+    objectives::called(name).map_or(name, |metric| metric.name).replace('_', " ")
+}
+
+/// An upper or lower limit with the unit of the metric.
+fn limit(metric: &str, max: Option<f64>, min: Option<f64>) -> String {
+    let unit = match objectives::called(metric).map_or("", |metric| metric.unit) {
+        "" => String::new(),
+        unit => format!(" {unit}"),
+    };
+    match (max, min) {
         (Some(max), _) => format!("≤ {max}{unit}"),
         (None, min) => format!("≥ {}{unit}", min.unwrap_or(0.0)),
-    };
-    format!("required: {quantity} {limit} under {}", requirement.combination)
+    }
 }
 
 fn describe_search(config: &Config) -> Vec<String> {
@@ -351,7 +377,7 @@ fn describe_search(config: &Config) -> Vec<String> {
         ),
         format!("evaluated first: {}", seeds(&search.seeds)),
         kept(search),
-        match search.survival.by_hypervolume(config.objectives.minimise.len()) {
+        match search.survival.by_hypervolume(config.objectives.count()) {
             true => "of the last front that survives, what adds most to the hypervolume stays",
             false => "of the last front that survives, what is least crowded stays",
         }

@@ -3,11 +3,12 @@
 use super::error::Problem;
 use super::path::KeyPath;
 use super::schema::suggestion;
-use super::{Config, VERSION, seeds};
+use super::{Config, VERSION};
 use crate::domain::params::{Corners, LoopParams};
 use crate::geometry::params::{Density, RelaxKind};
 use crate::io::{Inputs, ReadError};
-use crate::objectives::{self, METRICS};
+use crate::objectives::params::FabricationParams;
+use crate::objectives::{self, METRICS, Metric};
 use crate::skeleton::params::InitialMesh;
 use crate::structure::params::{
     HeightParams, Quantity, RequirementParams, SectionParams, StructureParams, SupportNodes, SupportParams,
@@ -25,7 +26,7 @@ pub fn check(config: &Config, inputs: &Inputs) -> Vec<Problem> {
     rules.topology(&config.topology.initial);
     rules.pattern(config);
     if let Some(structure) = &config.structure {
-        rules.structure(structure, config.domain.loops.len());
+        rules.structure(structure, config.domain.loops.len(), &config.fabrication);
     }
     rules.objectives(config);
     rules.search(config);
@@ -154,6 +155,19 @@ impl Rules<'_> {
                            \"area\", \"cotangent\", \"force-density\"";
             self.refuse("pattern.relax.kind", message);
         }
+        for (i, limit) in pattern.metric_limits.iter().enumerate() {
+            let key = KeyPath::of("pattern.limit").index(i);
+            let figures = &config.fabrication;
+            let of_geometry = |metric: &Metric| !objectives::needs_analysis(metric, figures);
+            self.metric(&key.key("quantity"), &limit.quantity, figures, of_geometry);
+            match (limit.max, limit.min) {
+                (Some(_), Some(_)) => {
+                    self.refuse(key.key("min"), "found beside `max`; allowed: one limit a table")
+                }
+                (None, None) => self.refuse(key.key("max"), "missing; allowed: a number ≥ 0, or `min`"),
+                _ => {}
+            }
+        }
         if pattern.density == Density::TargetLength && pattern.target_length_m.is_none() {
             let message = "missing, but density = \"target_length\" needs it; allowed: a number > 0";
             self.refuse("pattern.target_length_m", message);
@@ -165,8 +179,8 @@ impl Rules<'_> {
         }
     }
 
-    fn structure(&mut self, structure: &StructureParams, loops: usize) {
-        self.structure_keys(structure, loops);
+    fn structure(&mut self, structure: &StructureParams, loops: usize, figures: &FabricationParams) {
+        self.structure_keys(structure, loops, figures);
         // What the solver itself would refuse, where nothing was said about the key yet.
         for (key, message) in structure.validate() {
             let key = KeyPath::of(&format!("structure.{key}"));
@@ -176,7 +190,7 @@ impl Rules<'_> {
         }
     }
 
-    fn structure_keys(&mut self, structure: &StructureParams, loops: usize) {
+    fn structure_keys(&mut self, structure: &StructureParams, loops: usize, figures: &FabricationParams) {
         self.height(structure);
         for (i, support) in structure.supports.iter().enumerate() {
             self.support(support, loops, &KeyPath::of("structure.support").index(i));
@@ -190,6 +204,10 @@ impl Rules<'_> {
         }
         for (i, requirement) in structure.requirements.iter().enumerate() {
             let key = KeyPath::of("structure.requirement").index(i);
+            if requirement.analysed().is_none() {
+                let quantity = requirement.quantity.to_string();
+                self.metric(&key.key("quantity"), &quantity, figures, |_| true);
+            }
             let sized = matches!(structure.height, HeightParams::Sized { .. });
             self.requirement(requirement, &structure.combinations, sized, &key);
         }
@@ -273,9 +291,25 @@ impl Rules<'_> {
         key: &KeyPath,
     ) {
         let known: Vec<&str> = combinations.keys().map(String::as_str).collect();
-        self.known(&key.key("combination"), "combination", &requirement.combination, &known);
+        let quantity = requirement.analysed();
+        match (&requirement.combination, quantity) {
+            (Some(name), Some(_)) => self.known(&key.key("combination"), "combination", name, &known),
+            (None, Some(quantity)) if quantity.needs_combination() => {
+                let message = format!("missing; allowed: {}", known.join(", "));
+                self.refuse(key.key("combination"), message);
+            }
+            (Some(name), None) => {
+                let message = format!(
+                    "found \"{name}\", but {} is no matter of loads; leave it out",
+                    requirement.quantity
+                );
+                self.refuse(key.key("combination"), message);
+            }
+            (None, _) => {}
+        }
         // What a greater height does not bring nearer cannot be sized for.
-        let lower = requirement.quantity == Quantity::BucklingFactor;
+        let sized = sized && quantity.is_some_and(Quantity::is_sized_for);
+        let lower = quantity.is_some_and(Quantity::better_large);
         let wanted = if lower { "min" } else { "max" };
         match (requirement.max, requirement.min) {
             (Some(_), Some(_)) => {
@@ -291,35 +325,89 @@ impl Rules<'_> {
         }
     }
 
+    /// A metric to be limited, by its name or column; of those that may be limited here.
+    fn metric(
+        &mut self,
+        key: &KeyPath,
+        name: &str,
+        figures: &FabricationParams,
+        may: impl Fn(&Metric) -> bool,
+    ) {
+        let Some(metric) = objectives::called(name) else {
+            let allowed = METRICS.iter().filter(|metric| may(metric));
+            let known: Vec<&str> = allowed.map(|metric| metric.name).collect();
+            return self.known(key, "metric", name, &known);
+        };
+        if !may(metric) {
+            let message = format!(
+                "found \"{name}\", which needs a frame analysis; allowed as a [[structure.requirement]] only"
+            );
+            self.refuse(key.clone(), message);
+        } else if let Some(table) = objectives::lacks_figures(metric, figures) {
+            self.refuse(key.clone(), format!("found \"{name}\", which needs unit figures in {table}"));
+        }
+    }
+
+    /// A name of what is minimised or maximised.
+    fn objective(&mut self, key: &KeyPath, name: &str, maximised: bool, config: &Config) {
+        let better_large = objectives::better_large(name);
+        let names = METRICS.iter().map(|metric| metric.name);
+        let known: Vec<&str> =
+            names.filter(|name| maximised || objectives::better_large(name).is_none()).collect();
+        match (maximised, better_large) {
+            (false, Some(instead)) => {
+                let message = format!(
+                    "found \"{name}\", which is better the larger it is, and objectives are minimised; did you mean \
+                     \"{instead}\"? (or maximise = [\"{name}\"])"
+                );
+                self.refuse(key.clone(), message);
+            }
+            (true, _) if name == "buckling" => {
+                let message = "found \"buckling\", the inverse of the factor, which is better the smaller it is; did you \
+                               mean \"buckling_factor\"?";
+                self.refuse(key.clone(), message);
+            }
+            _ => match objectives::find(name) {
+                Some(metric) => self.has_a_value(key, metric, config),
+                None => match objectives::called(name) {
+                    // A column is what tables have; the name is that without the unit.
+                    Some(metric) => self.refuse(
+                        key.clone(),
+                        format!("found no objective \"{name}\"; did you mean \"{}\"?", metric.name),
+                    ),
+                    None => self.known(key, "objective", name, &known),
+                },
+            },
+        }
+    }
+
+    /// Whether the designs of a config have this metric at all.
+    fn has_a_value(&mut self, key: &KeyPath, metric: &Metric, config: &Config) {
+        let (name, figures) = (metric.name, &config.fabrication);
+        if let Some(table) = objectives::lacks_figures(metric, figures) {
+            self.refuse(key.clone(), format!("found \"{name}\", which needs unit figures in {table}"));
+        } else if config.structure.is_none() && objectives::needs_analysis(metric, figures) {
+            let message =
+                format!("found \"{name}\", which needs a frame analysis; allowed with [structure] only");
+            self.refuse(key.clone(), message);
+        }
+    }
+
     fn objectives(&mut self, config: &Config) {
         let objectives = &config.objectives;
-        let key = KeyPath::of("objectives.minimise");
-        let names = METRICS.iter().map(|metric| metric.name);
-        let known: Vec<&str> = names.filter(|name| objectives::better_large(name).is_none()).collect();
-        for (i, name) in objectives.minimise.iter().enumerate() {
-            match objectives::better_large(name) {
-                Some(instead) => {
-                    let message = format!(
-                        "found \"{name}\", which is better the larger it is, and objectives are minimised; did you mean \
-                         \"{instead}\"?"
-                    );
-                    self.refuse(key.index(i), message);
-                }
-                None => self.known(&key.index(i), "objective", name, &known),
-            }
-            if objectives.minimise[..i].contains(name) {
-                self.refuse(
-                    key.index(i),
-                    format!("found \"{name}\" a second time; allowed: each objective once"),
-                );
-            }
-            if config.structure.is_none() && objectives::find(name).is_some_and(|metric| metric.structural) {
-                let message =
-                    format!("found \"{name}\", which needs a frame analysis; allowed with [structure] only");
-                self.refuse(key.index(i), message);
+        let all: Vec<&String> = objectives.names().collect();
+        for (place, name) in all.iter().enumerate() {
+            let maximised = objectives.is_maximised(place);
+            let key = match maximised {
+                true => KeyPath::of("objectives.maximise").index(place - objectives.minimise.len()),
+                false => KeyPath::of("objectives.minimise").index(place),
+            };
+            self.objective(&key, name, maximised, config);
+            if all[..place].contains(name) {
+                self.refuse(key, format!("found \"{name}\" a second time; allowed: each objective once"));
             }
         }
-        let count = objectives.minimise.len();
+        let count = objectives.count();
         for (name, values) in [("ideal", &objectives.ideal), ("reference", &objectives.reference)] {
             if !values.is_empty() && values.len() != count {
                 let found = values.len();
@@ -334,10 +422,10 @@ impl Rules<'_> {
             self.refuse(key, message);
         }
         for (key, given) in [("weights", &objectives.weights), ("aspiration", &objectives.aspiration)] {
-            if !given.is_empty() && given.len() != objectives.minimise.len() {
-                let (found, wanted) = (given.len(), objectives.minimise.len());
+            if !given.is_empty() && given.len() != count {
+                let found = given.len();
                 let message =
-                    format!("found {found} numbers; allowed: one for each of the {wanted} objectives");
+                    format!("found {found} numbers; allowed: one for each of the {count} objectives");
                 self.refuse(KeyPath::of("objectives").key(key), message);
             }
         }
@@ -346,8 +434,12 @@ impl Rules<'_> {
             self.refuse(KeyPath::of("objectives.weights").index(i), message);
         }
         for (i, (ideal, reference)) in objectives.ideal.iter().zip(&objectives.reference).enumerate() {
-            if ideal >= reference {
-                let message = format!("found {reference}; allowed: more than the ideal, {ideal}");
+            let (worse, is_worse) = match objectives.is_maximised(i) {
+                true => ("less", reference < ideal),
+                false => ("more", reference > ideal),
+            };
+            if !is_worse {
+                let message = format!("found {reference}; allowed: {worse} than the ideal, {ideal}");
                 self.refuse(KeyPath::of("objectives.reference").index(i), message);
             }
         }
@@ -358,9 +450,6 @@ impl Rules<'_> {
         if tokens.min > tokens.max {
             let message = format!("found min = {} and max = {}; allowed: min ≤ max", tokens.min, tokens.max);
             self.refuse("search.tokens", message);
-        }
-        if let Err(problems) = seeds::strings(&config.search, self.inputs) {
-            self.problems.extend(problems);
         }
         for (i, region) in config.search.frozen.regions_m.iter().enumerate().filter(|(_, r)| r.len() < 3) {
             let message = format!("found {} points; allowed: a polygon of 3 or more", region.len());

@@ -60,12 +60,14 @@ impl Limits {
 /// One limit, what the pattern has, and by how much it exceeds.
 #[derive(Clone, PartialEq, Debug)]
 pub struct LimitExcess {
-    /// The limit's key in the config.
+    /// The limit's key in the config, or the column of the metric that is limited.
     pub name: &'static str,
     /// What the pattern has, in the unit of the key.
     pub value: f64,
     /// What it may have.
     pub limit: f64,
+    /// Whether at most; else at least.
+    pub upper: bool,
     /// Relative excess: max(0, value/limit − 1) of an upper limit, max(0, 1 − value/limit) of a lower one; 0 if it is kept.
     pub excess: f64,
 }
@@ -143,12 +145,14 @@ pub fn excesses(found: &Extremes, limits: &Limits) -> Vec<LimitExcess> {
     rows
 }
 
-fn at_most(name: &'static str, value: f64, limit: f64) -> LimitExcess {
+/// An upper limit on a value, kept or not.
+pub fn at_most(name: &'static str, value: f64, limit: f64) -> LimitExcess {
     let excess = if limit > 0.0 { (value / limit - 1.0).max(0.0) } else { value.max(0.0) };
-    LimitExcess { name, value, limit, excess }
+    LimitExcess { name, value, limit, upper: true, excess }
 }
 
-fn at_least(name: &'static str, value: f64, limit: f64) -> LimitExcess {
+/// A lower limit on a value, kept or not.
+pub fn at_least(name: &'static str, value: f64, limit: f64) -> LimitExcess {
     let excess = if limit > 0.0 { (1.0 - value / limit).max(0.0) } else { 0.0 };
-    LimitExcess { name, value, limit, excess }
+    LimitExcess { name, value, limit, upper: false, excess }
 }

@@ -47,6 +47,8 @@ pub struct Fabrication {
     pub planarity: f64,
     /// Largest of them.
     pub planarity_max: f64,
+    /// Largest of [`panel_warp`] over the quads, m.
+    pub warp_max: f64,
     /// Smallest panel angle, rad.
     pub angle_min: f64,
     /// Panel corners over 180°.
@@ -148,6 +150,7 @@ pub fn measure(pattern: &Pattern, mesh: &CanonicalMesh, domain: &Domain) -> Fabr
         aspect_max: aspect.max,
         planarity: planarity.mean,
         planarity_max: planarity.max,
+        warp_max: quads.iter().map(|s| s.warp).fold(0.0, f64::max),
         angle_min: all.iter().map(|s| s.angle_min).fold(f64::INFINITY, f64::min),
         reflex_corners: all.iter().map(|s| s.reflex).sum(),
         nodes: pattern.positions.len(),
@@ -256,6 +259,18 @@ fn best_fit_normal(points: &[Vec3], centroid: Vec3) -> Vec3 {
     scale(normal, 1.0 / norm(normal))
 }
 
+/// How far a pane would have to be bent: the largest distance of a corner of a quad from the plane of its other three, m.
+pub fn panel_warp(corners: &[Vec3]) -> f64 {
+    let n = corners.len();
+    let off = |i: usize| {
+        let [before, opposite, after] = [i + n - 1, i + 2, i + 1].map(|k| corners[k % n]);
+        let normal = cross(sub(opposite, before), sub(after, before));
+        let area = norm(normal);
+        if area > 0.0 { dot(sub(corners[i], before), normal).abs() / area } else { 0.0 }
+    };
+    (0..n).map(off).fold(0.0, f64::max)
+}
+
 /// max((θmax − 90°)/90°, (90° − θmin)/90°) over the corners of a quad (COMPAS 2 `Mesh.face_skewness`).
 pub fn panel_skewness(corners: &[Vec3]) -> f64 {
     let (least, most) =
@@ -279,6 +294,7 @@ struct PanelShape {
     curvature: f64,
     skewness: f64,
     planarity: f64,
+    warp: f64,
     area: f64,
     aspect: f64,
     angle_min: f64,
@@ -300,6 +316,7 @@ impl PanelShape {
             curvature: if quad { panel_curvature(&corners) } else { 0.0 },
             skewness: if quad { panel_skewness(&corners) } else { 0.0 },
             planarity: if quad { diagonal_distance(&corners) } else { 0.0 },
+            warp: if quad { panel_warp(&corners) } else { 0.0 },
             area: panel_area(positions, panel),
             aspect: sides.iter().copied().fold(0.0, f64::max)
                 / sides.iter().copied().fold(f64::INFINITY, f64::min),

@@ -15,6 +15,7 @@ pub mod dense;
 pub mod density;
 mod develop;
 pub mod deviation;
+pub mod distinct;
 pub mod force_density;
 pub mod images;
 pub mod laplacian;

@@ -24,6 +24,9 @@ pub struct PatternParams {
     pub relax: RelaxParams,
     /// Limits of a pattern that can be built, as constraints.
     pub limits: LimitParams,
+    /// Limits on any metric of geometry, as further constraints.
+    #[serde(rename = "limit", skip_serializing_if = "Vec::is_empty")]
+    pub metric_limits: Vec<MetricLimitParams>,
 }
 
 impl Default for PatternParams {
@@ -35,6 +38,7 @@ impl Default for PatternParams {
             max_faces: 20_000,
             relax: RelaxParams::default(),
             limits: LimitParams::default(),
+            metric_limits: Vec::new(),
         }
     }
 }
@@ -101,6 +105,22 @@ pub enum RelaxKind {
     Cotangent,
     /// Equal force densities, solved directly (Schek 1974).
     ForceDensity,
+}
+
+/// One limit on a metric; either `max` or `min`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MetricLimitParams {
+    /// A metric that needs no analysis, by its name or its column (`panel_warp_max`, `panel_warp_max_m`).
+    pub quantity: String,
+    /// Upper limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("minimum" = 0))]
+    pub max: Option<f64>,
+    /// Lower limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub min: Option<f64>,
 }
 
 /// Limits of a pattern that can be built.

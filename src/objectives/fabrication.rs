@@ -147,6 +147,16 @@ pub const PLANARITY_MAX: Metric = Metric {
     value: |design| of_quads(design, design.fabrication.planarity_max),
 };
 
+/// Largest warp.
+pub const PANEL_WARP_MAX: Metric = Metric {
+    name: "panel_warp_max",
+    column: "panel_warp_max_m",
+    unit: "m",
+    about: "largest distance of a quad panel's corner from the plane of its other three",
+    structural: false,
+    value: |design| of_quads(design, design.fabrication.warp_max),
+};
+
 /// C weighted by area.
 pub const CURVATURE_BY_AREA: Metric = Metric {
     name: "curvature_by_area",

@@ -4,12 +4,21 @@
 //! analysed design. A new one is one constant in a file of this folder and its line in [`METRICS`].
 
 mod fabrication;
+mod limit;
+mod making;
+mod objective;
+pub mod params;
 mod structural;
 mod topological;
 
+pub use limit::limit;
+pub use objective::Objective;
+
+use crate::geometry::distinct::Distinct;
 use crate::geometry::metrics::Fabrication;
 use crate::mesh::CanonicalMesh;
 use crate::structure::gridshell::{Governing, Response};
+use params::FabricationParams;
 
 /// A design after all stages: what metrics are read from.
 #[derive(Clone, Copy, Debug)]
@@ -18,6 +27,10 @@ pub struct AnalysedDesign<'a> {
     pub topology: &'a CanonicalMesh,
     /// The measures of the dense pattern.
     pub fabrication: &'a Fabrication,
+    /// How many different pieces it has.
+    pub distinct: &'a Distinct,
+    /// What pieces cost.
+    pub figures: &'a FabricationParams,
     /// The answer of the structure; absent where none is configured.
     pub response: Option<&'a Response>,
 }
@@ -25,7 +38,7 @@ pub struct AnalysedDesign<'a> {
 /// One number of a design.
 #[derive(Clone, Copy, Debug)]
 pub struct Metric {
-    /// Its name in `[objectives] minimise`.
+    /// Its name in `[objectives]`.
     pub name: &'static str,
     /// Its column in the CSV files, with the unit.
     pub column: &'static str,
@@ -39,7 +52,7 @@ pub struct Metric {
     pub value: fn(&AnalysedDesign) -> Option<f64>,
 }
 
-/// Every metric, in the order of the CSV columns. All are minimised when they are objectives; see [`better_large`].
+/// Every metric, in the order of the CSV columns.
 pub const METRICS: &[&Metric] = &[
     &structural::MASS,
     &structural::DEFLECTION,
@@ -85,7 +98,32 @@ pub const METRICS: &[&Metric] = &[
     &fabrication::REFLEX_CORNERS,
     &fabrication::BOUNDARY_GAP,
     &fabrication::AREA_COVERED,
+    &fabrication::PANEL_WARP_MAX,
+    &making::DISTINCT_MEMBERS,
+    &making::DISTINCT_PANELS,
+    &making::DISTINCT_NODES,
+    &making::COST,
+    &making::CARBON,
 ];
+
+/// Whether a metric has a value only of designs that were analysed, with these figures.
+pub fn needs_analysis(metric: &Metric, figures: &FabricationParams) -> bool {
+    let steel = match metric.name {
+        "cost" => figures.steel_per_kg,
+        "carbon" => figures.carbon.steel_per_kg,
+        _ => 0.0,
+    };
+    metric.structural || steel > 0.0
+}
+
+/// The table of the config without which a metric has no value, where there is one and it says nothing.
+pub fn lacks_figures(metric: &Metric, figures: &FabricationParams) -> Option<&'static str> {
+    match metric.name {
+        "cost" if figures.cost().is_empty() => Some("[fabrication]"),
+        "carbon" if figures.carbon.is_empty() => Some("[fabrication.carbon]"),
+        _ => None,
+    }
+}
 
 /// What to minimise instead of a metric that is better large; `None` for all others.
 pub fn better_large(name: &str) -> Option<&'static str> {
@@ -99,10 +137,15 @@ pub fn better_large(name: &str) -> Option<&'static str> {
 }
 
 /// The columns that say in which combination of loads a metric is taken, and which combination that is.
-pub const GOVERNING: [(&str, GoverningOf); 3] = [
+pub const GOVERNING: [(&str, GoverningOf); 8] = [
     ("deflection_combination", |governing| Some(&governing.deflection)),
     ("utilisation_combination", |governing| Some(&governing.utilisation)),
     ("buckling_combination", |governing| governing.buckling.as_deref()),
+    ("deflection_vertical_combination", |governing| Some(&governing.deflection_vertical)),
+    ("utilisation_all_combination", |governing| Some(&governing.utilisation_all)),
+    ("utilisation_von_mises_combination", |governing| Some(&governing.utilisation_von_mises)),
+    ("uplift_combination", |governing| Some(&governing.uplift)),
+    ("support_slide_combination", |governing| Some(&governing.support_slide)),
 ];
 
 /// Reads one combination off those that govern.
@@ -117,6 +160,11 @@ pub fn governing(design: &AnalysedDesign) -> Vec<String> {
 /// The metric of a name.
 pub fn find(name: &str) -> Option<&'static Metric> {
     METRICS.iter().copied().find(|metric| metric.name == name)
+}
+
+/// The metric that is called so: by its name, or by its column with the unit.
+pub fn called(name: &str) -> Option<&'static Metric> {
+    METRICS.iter().copied().find(|metric| metric.name == name || metric.column == name)
 }
 
 /// The metric of a name among values in the order of [`METRICS`], as an evaluation has them; `None` for one that does not exist.

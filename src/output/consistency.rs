@@ -11,9 +11,23 @@ use crate::search::EvaluatedRow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// Whether it is a column that results of before do not have.
+/// Whether it is a column that results of before may not have.
 fn is_new(column: &str) -> bool {
-    column == "symmetry" || front::LAST.contains(&column)
+    const NEW: [&str; 12] = [
+        "symmetry",
+        "panel_warp_max_m",
+        "distinct_members",
+        "distinct_panels",
+        "distinct_nodes",
+        "cost",
+        "carbon_kg",
+        "deflection_vertical_combination",
+        "utilisation_all_combination",
+        "utilisation_von_mises_combination",
+        "uplift_combination",
+        "support_slide_combination",
+    ];
+    NEW.contains(&column) || front::LAST.contains(&column)
 }
 
 /// Something that a table says otherwise than the rest of the folder.
@@ -32,7 +46,7 @@ pub struct Contradiction {
 /// # Errors
 /// [`LoadError`] if a file cannot be read or lacks a promised column.
 pub fn contradictions(folder: &Path, loaded: &Loaded) -> Result<Vec<Contradiction>, LoadError> {
-    let columns = Columns::of(&loaded.config.objectives.minimise);
+    let columns = Columns::of(&loaded.config.objectives);
     let of_history = columns.history_header();
     let mut found = header(folder, HISTORY, &of_history)?;
     found.extend(rows(folder, (HISTORY, loaded.naming), &of_history, |record| {

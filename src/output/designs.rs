@@ -4,7 +4,7 @@ use super::front;
 use super::table::{Cell, Dialect};
 use crate::mesh::canonical::Code;
 use crate::objectives::{self, GOVERNING, METRICS};
-use crate::search::EvaluatedRow;
+use crate::search::{EvaluatedRow, ObjectivesParams};
 use std::io::{self, Write};
 
 /// The first columns of both files.
@@ -17,6 +17,8 @@ pub const LAST: [&str; 3] = ["violation_stage", "violation", "reason"];
 pub struct Columns {
     /// Of the objectives, in the order of the config.
     pub objectives: Vec<String>,
+    /// How many of them, from the first on, are minimised; the rest is maximised.
+    pub minimised: usize,
     /// Of all metrics, in the order of the registry; those of the objectives among them.
     pub metrics: Vec<String>,
 }
@@ -65,11 +67,12 @@ impl Naming {
 }
 
 impl Columns {
-    /// The columns of a config that minimises these.
-    pub fn of(objectives: &[String]) -> Self {
+    /// The columns of a config with these objectives.
+    pub fn of(objectives: &ObjectivesParams) -> Self {
         Self {
+            minimised: objectives.minimise.len(),
             objectives: objectives
-                .iter()
+                .names()
                 .map(|name| {
                     objectives::find(name).map_or_else(|| name.clone(), |metric| metric.column.to_owned())
                 })
@@ -132,9 +135,14 @@ impl Columns {
         cells
     }
 
+    /// A value of the objective in this place as the search has it, made as files have it, or the other way round.
+    pub fn turned(&self, place: usize, value: f64) -> f64 {
+        if place < self.minimised { value } else { -value }
+    }
+
     /// An objective's value; of a design that did not get far enough to have all of them, the metric of that name.
     fn objective(&self, row: &EvaluatedRow, index: usize) -> Option<f64> {
-        row.objectives.get(index).copied().or_else(|| {
+        row.objectives.get(index).map(|&value| self.turned(index, value)).or_else(|| {
             let metric = self.metrics.iter().position(|name| *name == self.objectives[index])?;
             row.metrics.get(metric)
         })
@@ -163,6 +171,7 @@ pub(super) mod tests {
     pub(crate) fn columns() -> Columns {
         Columns {
             objectives: vec!["mass_kg".into(), "curvature".into()],
+            minimised: 2,
             metrics: vec!["curvature".into(), "buckling_factor".into(), "mass_kg".into()],
         }
     }
@@ -194,10 +203,9 @@ pub(super) mod tests {
         let line = text.lines().nth(1).unwrap();
         assert_eq!(
             line,
-            "qabc000000000,A*,A*,qabc0000000000000,,3,false,1000000,0.125,,,,,1,0.25,\"too weak, \"\"badly\"\"\""
+            "qabc000000000,A*,A*,qabc0000000000000,,3,false,1000000,0.125,,,,,,,,,,1,0.25,\"too weak, \"\"badly\"\"\""
         );
-        assert!(
-            text.lines().next().unwrap().ends_with("buckling_combination,violation_stage,violation,reason")
-        );
+        let header = text.lines().next().unwrap();
+        assert!(header.ends_with("support_slide_combination,violation_stage,violation,reason"));
     }
 }

@@ -55,20 +55,22 @@ fn key(row: &EvaluatedRow) -> Vec<u64> {
 /// The places of the front's designs by what the config prefers; `None` where it says nothing. Objectives are compared in the
 /// axes of the config, or else in those that the front spans.
 fn preferred(front: &[&EvaluatedRow], params: &ObjectivesParams) -> Option<Vec<usize>> {
-    let count = params.minimise.len();
+    let count = params.count();
     let points: Vec<&[f64]> = front.iter().map(|row| &*row.objectives).filter(|f| f.len() == count).collect();
     if (params.weights.is_empty() && params.aspiration.is_empty()) || points.len() < front.len() {
         return None;
     }
+    let [given_ideal, given_reference, aspiration] =
+        [&params.ideal, &params.reference, &params.aspiration].map(|given| params.turned(given));
     let extreme = |m: usize, pick: fn(f64, f64) -> f64| points.iter().map(|f| f[m]).reduce(pick);
     let axis = |given: &[f64], pick| {
         (0..count).map(|m| given.get(m).copied().or_else(|| extreme(m, pick))).collect::<Option<Vec<f64>>>()
     };
-    let (ideal, reference) = (axis(&params.ideal, f64::min)?, axis(&params.reference, f64::max)?);
+    let (ideal, reference) = (axis(&given_ideal, f64::min)?, axis(&given_reference, f64::max)?);
     let length = |(low, high): (&f64, &f64)| if high > low { high - low } else { 1.0 };
     let lengths: Vec<f64> = ideal.iter().zip(&reference).map(length).collect();
     let weights = if params.weights.is_empty() { vec![1.0; count] } else { params.weights.clone() };
-    let aspiration = if params.aspiration.is_empty() { &ideal } else { &params.aspiration };
+    let aspiration = if aspiration.is_empty() { &ideal } else { &aspiration };
     Some(Preference { aspiration, weights: &weights, lengths: &lengths }.places(&points))
 }
 
@@ -112,9 +114,11 @@ mod tests {
         assert_eq!(
             text,
             "id,string,expressed,code,symmetry,generation,feasible,mass_kg,curvature,buckling_factor,\
-             deflection_combination,utilisation_combination,buckling_combination,equal_designs,preferred\n\
-             q000000000000,\"\",\"\",q0000000000000002,,3,true,1.5,1,,,,,1,\n\
-             q000000000000,ATA,ATA,q0000000000000001,,3,true,2,0.5,,sls,uls,,2,\n"
+             deflection_combination,utilisation_combination,buckling_combination,deflection_vertical_combination,\
+             utilisation_all_combination,utilisation_von_mises_combination,uplift_combination,\
+             support_slide_combination,equal_designs,preferred\n\
+             q000000000000,\"\",\"\",q0000000000000002,,3,true,1.5,1,,,,,,,,,,1,\n\
+             q000000000000,ATA,ATA,q0000000000000001,,3,true,2,0.5,,sls,uls,,,,,,,2,\n"
         );
         objectives.weights = vec![1.0, 10.0];
         let standing = Standing::of(&evaluated, &[0, 1], &objectives);

@@ -1,11 +1,12 @@
 //! `generations.csv`, one row per generation, and `operators.csv`, how each operator fared in it.
 
+use super::designs::Columns;
 use super::table::{Cell, Table};
 use crate::search::GenerationRow;
 use crate::search::operators::OPERATORS;
 
 /// Counts, front and hypervolume, best and mean of each objective (named as in `pareto.csv`).
-pub fn generations(rows: &[GenerationRow], objectives: &[String]) -> Table {
+pub fn generations(rows: &[GenerationRow], columns: &Columns) -> Table {
     let counts = [
         "generation",
         "evaluations",
@@ -21,6 +22,7 @@ pub fn generations(rows: &[GenerationRow], objectives: &[String]) -> Table {
         "immigrants",
         "empty_slots",
     ];
+    let objectives = &columns.objectives;
     let best = objectives.iter().map(|name| format!("best_{name}"));
     let mean = objectives.iter().map(|name| format!("mean_{name}"));
     let mut table = Table::new(counts.map(str::to_owned).into_iter().chain(best).chain(mean));
@@ -42,7 +44,8 @@ pub fn generations(rows: &[GenerationRow], objectives: &[String]) -> Table {
             breeding.empty.into(),
         ];
         for values in [&row.best, &row.mean] {
-            cells.extend((0..objectives.len()).map(|i| Cell::from(values.get(i).copied())));
+            let value = |i: usize| values.get(i).map(|&value| columns.turned(i, value));
+            cells.extend((0..objectives.len()).map(|i| Cell::from(value(i))));
         }
         table.rows.push(cells);
     }
@@ -87,10 +90,16 @@ mod tests {
             breeding,
             ..GenerationRow::default()
         };
-        let text =
-            String::from_utf8(generations(std::slice::from_ref(&row), &["mass_kg".into()]).to_csv()).unwrap();
+        let columns = Columns { objectives: vec!["mass_kg".into()], minimised: 1, metrics: vec![] };
+        let table = |columns: &Columns| {
+            String::from_utf8(generations(std::slice::from_ref(&row), columns).to_csv()).unwrap()
+        };
+        let text = table(&columns);
         assert!(text.lines().next().unwrap().ends_with("empty_slots,best_mass_kg,mean_mass_kg"), "{text}");
         assert_eq!(text.lines().nth(1).unwrap(), "0,48,0,3,0,,60,12,0,0,0,0,0,1.5,");
+        // What is maximised is kept with the other sign.
+        let text = table(&Columns { minimised: 0, ..columns });
+        assert_eq!(text.lines().nth(1).unwrap(), "0,48,0,3,0,,60,12,0,0,0,0,0,-1.5,");
         let text = String::from_utf8(operators(&[row]).to_csv()).unwrap();
         assert_eq!(text, "generation,operator,used,evaluated,survived,entered_front\n0,random,5,4,2,1\n");
     }

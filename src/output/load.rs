@@ -8,7 +8,7 @@ use crate::files::names::{self, CHECKPOINT, EVALUATION, GENERATIONS, HISTORY, MA
 use crate::io::table;
 use crate::mesh::Symmetries;
 use crate::mesh::canonical::Code;
-use crate::objectives::GOVERNING;
+use crate::objectives::{GOVERNING, METRICS};
 use crate::search::{Breeding, EvaluatedRow, GenerationRow, Snapshot};
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -72,6 +72,8 @@ pub struct Loaded {
     pub is_unfinished: bool,
     /// How the tables and the names of the files in `designs/` write ids.
     pub naming: Naming,
+    /// Columns of metrics and combinations that `history.csv` does not have: an older version wrote it.
+    pub lacking: Vec<&'static str>,
 }
 
 /// Reads a results folder: a finished run from its tables, any other as it stood after its last finished generation.
@@ -97,6 +99,7 @@ pub fn look(folder: &Path) -> Result<Loaded, LoadError> {
         generations,
         is_unfinished: true,
         naming: Naming::Lettered,
+        lacking: Vec::new(),
     })
 }
 
@@ -126,7 +129,7 @@ fn head(folder: &Path) -> Result<(Manifest, Config), LoadError> {
 }
 
 fn tables(folder: &Path, manifest: Manifest, config: Config) -> Result<Loaded, LoadError> {
-    let columns = Columns::of(&config.objectives.minimise);
+    let columns = Columns::of(&config.objectives);
     let naming = Cell::new(Naming::Lettered);
     let evaluated = Sheet::each(folder, HISTORY, |record| {
         let row = row(record, &columns)?;
@@ -140,7 +143,11 @@ fn tables(folder: &Path, manifest: Manifest, config: Config) -> Result<Loaded, L
     })?;
     let generations = Sheet::each(folder, GENERATIONS, |record| generation(record, &columns))?;
     let is_unfinished = manifest.status != Status::Finished;
-    Ok(Loaded { manifest, config, evaluated, front, generations, is_unfinished, naming: naming.get() })
+    let header = Sheet::header(&folder.join(HISTORY))?;
+    let columns = METRICS.iter().map(|metric| metric.column).chain(GOVERNING.map(|(column, _)| column));
+    let lacking = columns.filter(|column| !header.iter().any(|name| name == column)).collect();
+    let naming = naming.get();
+    Ok(Loaded { manifest, config, evaluated, front, generations, is_unfinished, naming, lacking })
 }
 
 /// What a folder without a manifest is, and what to do.
@@ -254,6 +261,13 @@ impl<'a> Record<'a> {
         self.parse(column).map(Some)
     }
 
+    /// The values of all objectives in these columns, as the search has them; none if one is missing.
+    fn objectives(&self, columns: &Columns, named: &[String]) -> Result<Vec<f64>, LoadError> {
+        let values: Option<Vec<f64>> = self.numbers(named)?.into_iter().collect();
+        let values = values.unwrap_or_default().into_iter().enumerate();
+        Ok(values.map(|(place, value)| columns.turned(place, value)).collect())
+    }
+
     fn numbers(&self, columns: &[String]) -> Result<Vec<Option<f64>>, LoadError> {
         columns.iter().map(|column| self.number(column)).collect()
     }
@@ -269,7 +283,7 @@ pub(super) fn row(record: Record<'_>, columns: &Columns) -> Result<EvaluatedRow,
             record.text(code).unwrap_or_default()
         ))
     })?;
-    let objectives = record.numbers(&columns.objectives)?;
+    let objectives = record.objectives(columns, &columns.objectives)?;
     let in_history = record.sheet.columns.contains_key(stage);
     let violation = match in_history {
         true => Violation::new(record.parse(stage)?, record.parse(measure)?),
@@ -288,7 +302,7 @@ pub(super) fn row(record: Record<'_>, columns: &Columns) -> Result<EvaluatedRow,
         },
         violation,
         reason: if in_history { record.text(reason)?.into() } else { "".into() },
-        objectives: objectives.into_iter().collect::<Option<Vec<f64>>>().unwrap_or_default().into(),
+        objectives: objectives.into(),
         metrics: record.numbers(&columns.metrics)?.into_iter().collect(),
         governing: governing(&record),
         structural: false,
@@ -305,7 +319,7 @@ fn governing(record: &Record<'_>) -> Box<[Box<str>]> {
 fn generation(record: Record<'_>, columns: &Columns) -> Result<GenerationRow, LoadError> {
     let all = |prefix: &str| -> Result<Vec<f64>, LoadError> {
         let named: Vec<String> = columns.objectives.iter().map(|name| format!("{prefix}_{name}")).collect();
-        Ok(record.numbers(&named)?.into_iter().collect::<Option<_>>().unwrap_or_default())
+        record.objectives(columns, &named)
     };
     Ok(GenerationRow {
         generation: record.parse("generation")?,

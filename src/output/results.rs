@@ -12,7 +12,7 @@ use super::obstacles::nearest_misses;
 use super::polygons::Polygons;
 use super::svg::{Plan, Shade, svg};
 use super::table::{Dialect, Table};
-use crate::config::Project;
+use crate::config::ResolvedConfig;
 use crate::files::names::{self, TABLES, excel_name};
 use crate::mesh::{CanonicalMesh, Code};
 use crate::objectives::METRICS;
@@ -45,9 +45,9 @@ pub enum ResultsError {
 }
 
 /// What a resumed run must have in common with the one it goes on with: the config and the files it names.
-pub fn record(project: &Project) -> Json {
-    let mut record = serde_json::to_value(&project.config).unwrap_or_default();
-    record["input_files"] = serde_json::to_value(project.inputs.hashes()).unwrap_or_default();
+pub fn record(resolved: &ResolvedConfig) -> Json {
+    let mut record = serde_json::to_value(resolved.config()).unwrap_or_default();
+    record["input_files"] = serde_json::to_value(resolved.inputs().hashes()).unwrap_or_default();
     record
 }
 
@@ -66,7 +66,7 @@ pub struct Run<'a> {
     /// What the search was served by.
     pub study: &'a Study,
     /// The config, seed included, and its files.
-    pub project: &'a Project,
+    pub resolved: &'a ResolvedConfig,
     /// What was found.
     pub outcome: &'a Outcome,
     /// Which copies of the tables are wanted beside the canonical ones.
@@ -93,13 +93,13 @@ impl Run<'_> {
     /// # Errors
     /// [`ResultsError`].
     pub fn write_tables(&self, folder: &mut Folder) -> Result<(), ResultsError> {
-        let columns = Columns::of(&self.project.config.objectives.minimise);
+        let columns = Columns::of(&self.resolved.config().objectives);
         let Outcome { evaluated, generations: rows, .. } = self.outcome;
-        let objectives = &self.project.config.objectives;
+        let objectives = &self.resolved.config().objectives;
         let standing = Standing::of(evaluated, &self.outcome.front, objectives);
         let tables: [(&str, Table); 3] = [
             (names::PARETO, pareto(&self.front(), &standing, &columns)),
-            (names::GENERATIONS, generations(rows, &columns.objectives)),
+            (names::GENERATIONS, generations(rows, &columns)),
             (names::OPERATORS, operators(rows)),
         ];
         for dialect in self.dialects() {
@@ -324,7 +324,7 @@ impl Developed {
     }
 
     /// Its supported nodes, and whether they are held horizontally; none where nothing was analysed.
-    pub(super) fn supports(&self) -> Vec<([f64; 3], bool)> {
+    pub fn supports(&self) -> Vec<([f64; 3], bool)> {
         let Some(frame) = self.results.as_ref().map(|results| &results.model.frame) else {
             return Vec::new();
         };

@@ -5,13 +5,16 @@ use std::path::PathBuf;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What is minimised.
+/// What is minimised, and maximised.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ObjectivesParams {
-    /// Names of the objectives. Empty: the six of the paper, or, without `[structure]`, the three of fabrication.
+    /// Names of the objectives. Empty, and nothing maximised: the six of the paper, or, without `[structure]`, the three of fabrication.
     #[serde(default)]
     pub minimise: Vec<String>,
+    /// Names of objectives that are better the larger they are; in the lists below they come after those that are minimised.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub maximise: Vec<String>,
     /// Ideal value of each, for normalising and hypervolume; empty = from the first feasible evaluations.
     #[serde(default)]
     pub ideal: Vec<f64>,
@@ -26,6 +29,37 @@ pub struct ObjectivesParams {
     /// ideal.
     #[serde(default)]
     pub aspiration: Vec<f64>,
+}
+
+impl ObjectivesParams {
+    /// The names of all objectives: those minimised, then those maximised.
+    pub fn names(&self) -> impl Iterator<Item = &String> {
+        self.minimise.iter().chain(&self.maximise)
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.minimise.len() + self.maximise.len()
+    }
+
+    /// Whether the objective in this place is maximised.
+    pub fn is_maximised(&self, place: usize) -> bool {
+        place >= self.minimise.len()
+    }
+
+    /// From values as files and people have them, in the order of the objectives, to those that the search makes small, and back: what is
+    /// maximised changes its sign.
+    pub fn turned(&self, values: &[f64]) -> Vec<f64> {
+        let turn = |(place, &value): (usize, &f64)| if self.is_maximised(place) { -value } else { value };
+        values.iter().enumerate().map(turn).collect()
+    }
+
+    /// What is minimised and maximised, in words.
+    pub fn in_words(&self) -> String {
+        let all = [("minimising", &self.minimise), ("maximising", &self.maximise)];
+        let told = all.iter().filter(|(_, names)| !names.is_empty());
+        told.map(|(what, names)| format!("{what} {}", names.join(", "))).collect::<Vec<_>>().join("; ")
+    }
 }
 
 /// How strings are bred (docs/reference/search.md).

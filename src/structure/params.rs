@@ -345,13 +345,15 @@ pub enum SupportPlace {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RequirementParams {
-    /// What is limited.
-    pub quantity: Quantity,
-    /// The combination it is taken from.
-    pub combination: String,
+    /// What is limited: a metric, by its name or its column (`uplift`, `uplift_kn`).
+    pub quantity: Limited,
+    /// The combination it is taken from, where loads make the metric: needed, but for uplift and support_slide, which without it are
+    /// taken as in the tables. Other metrics have none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub combination: Option<String>,
     /// Upper limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("minimum" = 0))]
     pub max: Option<f64>,
     /// Lower limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -359,9 +361,58 @@ pub struct RequirementParams {
     pub min: Option<f64>,
 }
 
-/// What a requirement can limit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
+impl RequirementParams {
+    /// The quantity of the analysis that is limited; none where it is another metric.
+    pub fn analysed(&self) -> Option<Quantity> {
+        match self.quantity {
+            Limited::Quantity(quantity) => Some(quantity),
+            Limited::Metric(_) => None,
+        }
+    }
+}
+
+/// What a requirement limits. Written and read as the name.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(from = "String", into = "String")]
+#[schemars(with = "String")]
+pub enum Limited {
+    /// What loads make, and the analysis tells of each combination.
+    Quantity(Quantity),
+    /// Any other metric, by its name or its column; which there are this module does not know.
+    Metric(String),
+}
+
+impl From<Quantity> for Limited {
+    fn from(quantity: Quantity) -> Self {
+        Self::Quantity(quantity)
+    }
+}
+
+impl From<String> for Limited {
+    fn from(name: String) -> Self {
+        let named = Quantity::ALL.into_iter().find(|q| q.name() == name || q.column() == name);
+        named.map_or(Self::Metric(name), Self::Quantity)
+    }
+}
+
+impl From<Limited> for String {
+    fn from(limited: Limited) -> Self {
+        limited.to_string()
+    }
+}
+
+impl std::fmt::Display for Limited {
+    /// The name in the config.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Quantity(quantity) => f.write_str(quantity.name()),
+            Self::Metric(name) => f.write_str(name),
+        }
+    }
+}
+
+/// What the analysis tells of each combination, and a requirement can limit there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// Largest resultant displacement of a node, m.
     Deflection,
@@ -375,6 +426,12 @@ pub enum Quantity {
     UtilisationVonMises,
     /// First positive linear buckling factor.
     BucklingFactor,
+    /// Its inverse; 0 where nothing buckles.
+    Buckling,
+    /// Largest pull on a support, kN.
+    Uplift,
+    /// Largest horizontal movement of a supported node, m.
+    SupportSlide,
 }
 
 /// Quantities that are told of the same combinations where only one of them is limited.
@@ -386,30 +443,92 @@ pub enum Family {
     Utilisations,
     /// Buckling factors.
     Buckling,
+    /// Reactions.
+    Reactions,
 }
 
-impl Quantity {
-    /// What it is a kind of.
-    pub fn family(self) -> Family {
+impl Family {
+    /// The combination that is usual for it, where no requirement names one; all where none is.
+    pub fn usual(self) -> Option<&'static str> {
         match self {
-            Self::Deflection | Self::DeflectionVertical => Family::Deflections,
-            Self::Utilisation | Self::UtilisationAll | Self::UtilisationVonMises => Family::Utilisations,
-            Self::BucklingFactor => Family::Buckling,
+            Self::Deflections => Some("sls"),
+            Self::Utilisations | Self::Buckling => Some("uls"),
+            Self::Reactions => None,
         }
     }
 }
 
-impl std::fmt::Display for Quantity {
-    /// The name in the config.
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
+impl Quantity {
+    /// All of them.
+    pub const ALL: [Self; 9] = [
+        Self::Deflection,
+        Self::DeflectionVertical,
+        Self::Utilisation,
+        Self::UtilisationAll,
+        Self::UtilisationVonMises,
+        Self::BucklingFactor,
+        Self::Buckling,
+        Self::Uplift,
+        Self::SupportSlide,
+    ];
+
+    /// What it is a kind of.
+    pub fn family(self) -> Family {
+        match self {
+            Self::Deflection | Self::DeflectionVertical | Self::SupportSlide => Family::Deflections,
+            Self::Utilisation | Self::UtilisationAll | Self::UtilisationVonMises => Family::Utilisations,
+            Self::BucklingFactor | Self::Buckling => Family::Buckling,
+            Self::Uplift => Family::Reactions,
+        }
+    }
+
+    /// The name of its metric.
+    pub fn name(self) -> &'static str {
+        match self {
             Self::Deflection => "deflection",
             Self::DeflectionVertical => "deflection_vertical",
             Self::Utilisation => "utilisation",
             Self::UtilisationAll => "utilisation_all",
             Self::UtilisationVonMises => "utilisation_von_mises",
             Self::BucklingFactor => "buckling_factor",
-        })
+            Self::Buckling => "buckling",
+            Self::Uplift => "uplift",
+            Self::SupportSlide => "support_slide",
+        }
+    }
+
+    /// The column of its metric, with the unit.
+    pub fn column(self) -> &'static str {
+        match self {
+            Self::Deflection => "deflection_m",
+            Self::DeflectionVertical => "deflection_vertical_m",
+            Self::Uplift => "uplift_kn",
+            Self::SupportSlide => "support_slide_m",
+            other => other.name(),
+        }
+    }
+
+    /// Whether a requirement must name its combination.
+    pub fn needs_combination(self) -> bool {
+        !matches!(self, Self::Uplift | Self::SupportSlide)
+    }
+
+    /// Whether it is better the larger it is.
+    pub fn better_large(self) -> bool {
+        self == Self::BucklingFactor
+    }
+
+    /// Whether a larger section brings it nearer to its limit, so that one can be sized for it. A pull on a support is the loads' doing:
+    /// it is asked of the section found.
+    pub fn is_sized_for(self) -> bool {
+        self != Self::Uplift
+    }
+}
+
+impl std::fmt::Display for Quantity {
+    /// The name in the config.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
     }
 }
 
@@ -452,9 +571,9 @@ mod defaults {
     }
 
     pub fn requirements() -> Vec<RequirementParams> {
-        let requirement = |quantity, combination: &str, max, min| RequirementParams {
-            quantity,
-            combination: combination.into(),
+        let requirement = |quantity: Quantity, combination: &str, max, min| RequirementParams {
+            quantity: quantity.into(),
+            combination: Some(combination.into()),
             max,
             min,
         };

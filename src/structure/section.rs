@@ -23,6 +23,34 @@ pub struct Section {
     pub asz: f64,
     /// What the stresses of torsion and shear need, where the section's shape is known.
     pub shear: Option<ShearStress>,
+    /// The shape, where it is known: what other programs draw and check.
+    pub shape: Option<Shape>,
+}
+
+/// The shape of a section, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shape {
+    /// A rectangular hollow section with sharp corners.
+    Box {
+        /// Along local y.
+        width: f64,
+        /// Along local z.
+        height: f64,
+        /// Of the walls.
+        thickness: f64,
+    },
+    /// A solid round bar.
+    Round {
+        /// Its diameter.
+        diameter: f64,
+    },
+    /// A round tube.
+    Tube {
+        /// Outer diameter.
+        diameter: f64,
+        /// Of the wall.
+        thickness: f64,
+    },
 }
 
 /// How torsion and shear forces turn into shear stress.
@@ -105,6 +133,7 @@ impl Section {
             asy: avy,
             asz: avz,
             shear: Some(ShearStress { wt: 2.0 * mid_b * mid_h * t, avy, avz }),
+            shape: Some(Shape::Box { width, height, thickness }),
         })
     }
 
@@ -116,7 +145,7 @@ impl Section {
         positive("diameter", diameter)?;
         let area = std::f64::consts::FRAC_PI_4 * diameter.powi(2);
         let i = std::f64::consts::PI * diameter.powi(4) / 64.0;
-        Ok(Self::circular(diameter, area, i, 0.9 * area, 0.75 * area))
+        Ok(Self::circular(Shape::Round { diameter }, diameter, [area, i], [0.9 * area, 0.75 * area]))
     }
 
     /// A round tube of outer `diameter` and wall `thickness`, m. Shear: κ = 1/2 for stiffness (thin wall),
@@ -130,10 +159,12 @@ impl Section {
         let inner = diameter - 2.0 * thickness;
         let area = std::f64::consts::FRAC_PI_4 * (diameter.powi(2) - inner.powi(2));
         let i = std::f64::consts::PI * (diameter.powi(4) - inner.powi(4)) / 64.0;
-        Ok(Self::circular(diameter, area, i, 0.5 * area, 2.0 * area / std::f64::consts::PI))
+        let shear = [0.5 * area, 2.0 * area / std::f64::consts::PI];
+        Ok(Self::circular(Shape::Tube { diameter, thickness }, diameter, [area, i], shear))
     }
 
-    fn circular(diameter: f64, area: f64, i: f64, stiff: f64, stress: f64) -> Self {
+    /// With A and I, and the shear areas for stiffness and stress.
+    fn circular(shape: Shape, diameter: f64, [area, i]: [f64; 2], [stiff, stress]: [f64; 2]) -> Self {
         let radius = 0.5 * diameter;
         Self {
             area,
@@ -145,6 +176,7 @@ impl Section {
             asy: stiff,
             asz: stiff,
             shear: Some(ShearStress { wt: 2.0 * i / radius, avy: stress, avz: stress }),
+            shape: Some(shape),
         }
     }
 
@@ -169,7 +201,7 @@ impl Section {
                 wz_m3: wz,
                 asy_m2: asy,
                 asz_m2: asz,
-            } => Ok(Self { area, iy, iz, j, wy, wz, asy, asz, shear: None }),
+            } => Ok(Self { area, iy, iz, j, wy, wz, asy, asz, shear: None, shape: None }),
         }
     }
 

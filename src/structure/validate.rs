@@ -148,14 +148,29 @@ impl StructureParams {
     fn check_requirements(&self, problems: &mut Problems) {
         for (i, requirement) in self.requirements.iter().enumerate() {
             let key = |name: &str| format!("requirement[{i}].{name}");
-            let combination = &requirement.combination;
-            if !self.combinations.contains_key(combination) {
-                let message =
-                    format!("there is no combination {combination:?}; {}", known(self.combinations.keys()));
-                problems.push((key("combination"), message));
+            match (&requirement.combination, requirement.analysed()) {
+                (Some(combination), Some(_)) if !self.combinations.contains_key(combination) => {
+                    let message = format!(
+                        "there is no combination {combination:?}; {}",
+                        known(self.combinations.keys())
+                    );
+                    problems.push((key("combination"), message));
+                }
+                (Some(combination), None) => {
+                    let message = format!(
+                        "{combination:?}, but {} is no matter of loads; leave it out",
+                        requirement.quantity
+                    );
+                    problems.push((key("combination"), message));
+                }
+                (None, Some(quantity)) if quantity.needs_combination() => {
+                    let message = format!("{quantity} needs one; {}", known(self.combinations.keys()));
+                    problems.push((key("combination"), message));
+                }
+                _ => {}
             }
             match (requirement.max, requirement.min) {
-                (Some(max), None) => positive(problems, &key("max"), max),
+                (Some(max), None) => at_least_zero(problems, &key("max"), max),
                 (None, Some(min)) => positive(problems, &key("min"), min),
                 (Some(_), Some(_)) => problems.push((key("min"), "give either max or min, not both".into())),
                 (None, None) => problems.push((key("max"), "give max or min".into())),

@@ -50,7 +50,8 @@ impl Study {
     /// Combinations that no requirement names: they have no say in what is feasible.
     fn unchecked_combinations(&self) -> Option<String> {
         let structure = self.structure.as_ref().filter(|structure| !structure.requirements.is_empty())?;
-        let checked = |name: &String| structure.requirements.iter().any(|r| r.combination == *name);
+        let checked =
+            |name: &String| structure.requirements.iter().any(|r| r.combination.as_ref() == Some(name));
         let names: Vec<&str> =
             structure.combinations.keys().filter(|name| !checked(name)).map(String::as_str).collect();
         (!names.is_empty()).then(|| {

@@ -75,6 +75,15 @@ fn tables_say_which_combination_governs_whatever_the_order() {
         assert_eq!(cell(&table, "utilisation_combination"), "storm");
         assert_eq!(cell(&table, "buckling_combination"), "storm");
         assert_eq!(cell(&table, "deflection_combination"), "sls");
+        // What no requirement names follows its kin; a pull on supports is that of any combination.
+        for (column, combination) in [
+            ("deflection_vertical_combination", "sls"),
+            ("support_slide_combination", "sls"),
+            ("utilisation_all_combination", "storm"),
+            ("utilisation_von_mises_combination", "storm"),
+        ] {
+            assert_eq!(cell(&table, column), combination, "{column}");
+        }
         let designs = std::fs::read_dir(folder.path().join(&out).join("designs")).unwrap();
         let members = designs
             .map(|file| file.unwrap().path())

@@ -73,6 +73,7 @@ fn metrics() -> Vec<Metric> {
         column: column.to_owned(),
         unit: unit.to_owned(),
         meaning: meaning.to_owned(),
+        maximised: false,
     };
     vec![
         metric(

@@ -69,6 +69,31 @@ fn a_table_as_written_contradicts_nothing() {
     assert_eq!(told("pareto.csv", |_| ()), [""; 0]);
 }
 
+/// As an older version wrote it: without what came later.
+#[test]
+fn a_table_without_the_columns_of_later_versions_contradicts_nothing() {
+    let folder = finished_run();
+    for name in ["pareto.csv", "history.csv"] {
+        change(folder.path(), name, |table| {
+            for later in ["uplift_combination", "support_slide_combination"] {
+                let k = column(table, later);
+                table.iter_mut().for_each(|row| drop(row.remove(k)));
+            }
+        });
+    }
+    let loaded = load(folder.path()).unwrap();
+    assert_eq!(loaded.lacking, ["uplift_combination", "support_slide_combination"]);
+    assert_eq!(contradictions(folder.path(), &loaded).unwrap(), []);
+    let verify = |folder: &Path| Command::cargo_bin("quadrille").unwrap().arg("verify").arg(folder).assert();
+    verify(folder.path()).success();
+    // A column that was always there is missed.
+    change(folder.path(), "pareto.csv", |table| {
+        let k = column(table, "deflection_m");
+        table.iter_mut().for_each(|row| drop(row.remove(k)));
+    });
+    verify(folder.path()).failure();
+}
+
 #[test]
 fn every_changed_cell_of_the_front_is_named() {
     for (name, value) in [

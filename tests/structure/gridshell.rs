@@ -204,7 +204,7 @@ fn what_is_wrong_with_the_parameters_is_named() {
         }),
         ["combinations.sls.wind"]
     );
-    assert_eq!(keys(|p| p.requirements[0].combination = "als".into()), ["requirement[0].combination"]);
+    assert_eq!(keys(|p| p.requirements[0].combination = Some("als".into())), ["requirement[0].combination"]);
     assert_eq!(keys(|p| p.requirements[0].min = Some(1.0)), ["requirement[0].min"]);
     assert_eq!(keys(|p| p.requirements[1].max = None), ["requirement[1].max"]);
     assert_eq!(keys(|p| p.supports[0].at = None), ["support[0].at"]);
@@ -216,7 +216,7 @@ fn deflection_comes_from_the_combination_its_requirement_names() {
     let pattern: Pattern = dome(6, 18.0, 2.0);
     let mut params = StructureParams { order: 1, ..at_height(0.2) };
     let sls = analyse(&pattern, &params).unwrap();
-    params.requirements[0].combination = "uls".into();
+    params.requirements[0].combination = Some("uls".into());
     let uls = analyse(&pattern, &params).unwrap();
     assert!(uls.deflection_m > 1.3 * sls.deflection_m);
     params.requirements = Vec::<RequirementParams>::new();
@@ -233,10 +233,10 @@ fn metrics_are_the_worst_over_all_combinations_required_whatever_their_order() {
         let cases = scaled(factor).into_iter().map(|(case, factor)| (case.to_owned(), factor)).collect();
         params.combinations.insert(name.into(), cases);
     }
-    let one = |quantity, combination: &str| {
+    let one = |quantity: Quantity, combination: &str| {
         let (max, min) =
             if quantity == Quantity::BucklingFactor { (None, Some(1.5)) } else { (Some(0.5), None) };
-        RequirementParams { quantity, combination: combination.into(), max, min }
+        RequirementParams { quantity: quantity.into(), combination: Some(combination.into()), max, min }
     };
     let quantities = [Quantity::Utilisation, Quantity::Deflection, Quantity::BucklingFactor];
     let all: Vec<_> = quantities

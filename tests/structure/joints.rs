@@ -39,6 +39,7 @@ fn parts(nodes: Vec<[f64; 3]>, members: &[(u32, u32)], up: [f64; 3], supports: V
             asy: 0.0,
             asz: 0.0,
             shear: None,
+            shape: None,
         }],
         material: Material {
             youngs_modulus: E,

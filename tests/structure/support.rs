@@ -244,6 +244,7 @@ pub fn columns(count: u32, elements: u32, epsilon: f64) -> FrameParts {
             asy: 0.0,
             asz: 0.0,
             shear: None,
+            shape: None,
         }],
         material: steel(),
         shear_deformation: false,

@@ -15,7 +15,18 @@ const FREE: [bool; 6] = [false; 6];
 const CLAMPED: [bool; 6] = [true; 6];
 
 fn section() -> Section {
-    Section { area: 4e-3, iy: STRONG, iz: WEAK, j: 2e-5, wy: 2e-4, wz: 1e-4, asy: 0.0, asz: 0.0, shear: None }
+    Section {
+        area: 4e-3,
+        iy: STRONG,
+        iz: WEAK,
+        j: 2e-5,
+        wy: 2e-4,
+        wz: 1e-4,
+        asy: 0.0,
+        asz: 0.0,
+        shear: None,
+        shape: None,
+    }
 }
 
 /// A polyline of members; `held[i]` for the nodes named.

@@ -10,7 +10,7 @@ pub struct ReportData {
     pub run: Run,
     /// Every metric, in the order of [`Design::values`].
     pub metrics: Vec<Metric>,
-    /// Which entries of `metrics` are the objectives (all minimised), in the order of the config.
+    /// Which entries of `metrics` are the objectives, in the order of the config.
     pub objectives: Vec<usize>,
     /// The front, in the order of `pareto.csv`.
     pub front: Vec<Design>,
@@ -67,6 +67,9 @@ pub struct Metric {
     pub unit: String,
     /// What it measures, in one sentence.
     pub meaning: String,
+    /// Whether it is an objective that is better the larger it is.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub maximised: bool,
 }
 
 /// One design: its string, its numbers, its mesh.

@@ -4,6 +4,7 @@ use super::choose::worth_a_mesh;
 use super::data::{Design, Generation, Metric, Obstacle, ReportData, Run, Sample, Spread};
 use super::families::{HANDFUL, families};
 use super::{measure, shape};
+use crate::config::ResolvedConfig;
 use crate::files::names::DESIGNS;
 use crate::io::Inputs;
 use crate::mesh::QuadMesh;
@@ -35,15 +36,15 @@ const BYTES_PER_PANEL: usize = 28;
 pub fn read(folder: &Path) -> Result<ReportData, LoadError> {
     let loaded = look(folder)?;
     let inputs = inputs::again(&loaded.manifest, &loaded.config, None).ok();
-    of(folder, loaded, inputs.as_ref())
+    of(folder, loaded, inputs)
 }
 
 /// As [`read`], from a folder that was read already; designs are grouped where its inputs are there as they were.
 ///
 /// # Errors
 /// As [`read`].
-pub fn of(folder: &Path, loaded: Loaded, inputs: Option<&Inputs>) -> Result<ReportData, LoadError> {
-    let shown = Shown::of(&loaded, inputs);
+pub fn of(folder: &Path, loaded: Loaded, inputs: Option<Inputs>) -> Result<ReportData, LoadError> {
+    let shown = Shown::of(folder, &loaded, inputs);
     let Loaded { manifest, evaluated, front, generations, is_unfinished, .. } = loaded;
     let shapes = folder.join(DESIGNS);
     let mut rows: Vec<Design> =
@@ -55,10 +56,10 @@ pub fn of(folder: &Path, loaded: Loaded, inputs: Option<&Inputs>) -> Result<Repo
     let misses = nearest_misses(&evaluated);
     let misses: Vec<Design> =
         misses.iter().map(|&row| shown.design(&evaluated[row], &shapes)).collect::<Result<_, _>>()?;
-    keep_within_budget(&mut rows, shown.objectives);
+    keep_within_budget(&mut rows, &shown);
     Ok(ReportData {
         run: run(&manifest, is_unfinished),
-        metrics: shown.places.iter().map(|&place| metric(METRICS[place])).collect(),
+        metrics: shown.metrics(),
         objectives: (0..shown.objectives).collect(),
         design_files: rows
             .first()
@@ -115,6 +116,7 @@ fn metric(metric: &objectives::Metric) -> Metric {
         column: metric.column.to_owned(),
         unit: metric.unit.to_owned(),
         meaning: metric.about.to_owned(),
+        maximised: false,
     }
 }
 
@@ -122,6 +124,8 @@ fn metric(metric: &objectives::Metric) -> Metric {
 struct Shown {
     places: Vec<usize>,
     objectives: usize,
+    /// How many of the objectives are minimised: the first.
+    minimised: usize,
     naming: Naming,
     standing: Standing,
     /// What strings mean; none where the files that the config names are no longer there.
@@ -129,11 +133,10 @@ struct Shown {
 }
 
 impl Shown {
-    fn of(loaded: &Loaded, inputs: Option<&Inputs>) -> Self {
+    fn of(folder: &Path, loaded: &Loaded, inputs: Option<Inputs>) -> Self {
         let Loaded { config, evaluated, front, naming, .. } = loaded;
-        let minimised = &config.objectives.minimise;
         let place = |name: &String| METRICS.iter().position(|metric| metric.name == name);
-        let mut places: Vec<usize> = minimised.iter().filter_map(place).collect();
+        let mut places: Vec<usize> = config.objectives.names().filter_map(place).collect();
         let objectives = places.len();
         let exists = |place: &usize| evaluated.iter().any(|row| row.metrics.get(*place).is_some());
         let others = (0..METRICS.len()).filter(|place| !places.contains(place)).filter(exists);
@@ -141,10 +144,26 @@ impl Shown {
         Self {
             places,
             objectives,
+            minimised: config.objectives.minimise.len(),
             naming: *naming,
             standing: Standing::of(evaluated, front, &config.objectives),
-            study: inputs.and_then(|inputs| Study::of(config, inputs).ok()),
+            study: inputs
+                .and_then(|inputs| Study::of(&ResolvedConfig::again(config, inputs, folder).ok()?).ok()),
         }
+    }
+
+    fn metrics(&self) -> Vec<Metric> {
+        let mut metrics: Vec<Metric> = self.places.iter().map(|&place| metric(METRICS[place])).collect();
+        metrics[self.minimised..self.objectives].iter_mut().for_each(|metric| metric.maximised = true);
+        metrics
+    }
+
+    /// Objectives of a design, all of them better when smaller.
+    fn minimised(&self, design: &Design) -> Vec<Option<f64>> {
+        let values = design.values[..self.objectives].iter().enumerate();
+        values
+            .map(|(place, value)| value.map(|value| if place < self.minimised { value } else { -value }))
+            .collect()
     }
 
     fn design(&self, row: &EvaluatedRow, shapes: &Path) -> Result<Design, LoadError> {
@@ -200,11 +219,10 @@ impl Shown {
     }
 }
 
-fn keep_within_budget(front: &mut [Design], objectives: usize) {
+fn keep_within_budget(front: &mut [Design], shown: &Shown) {
     let panels: usize = front.iter().filter_map(|d| d.mesh.as_ref()).map(|mesh| mesh.panels.len()).sum();
     let each = (panels / front.len().max(1)).max(1) * BYTES_PER_PANEL;
-    let table: Vec<Vec<Option<f64>>> =
-        front.iter().map(|design| design.values[..objectives].to_vec()).collect();
+    let table: Vec<Vec<Option<f64>>> = front.iter().map(|design| shown.minimised(design)).collect();
     let kept = worth_a_mesh(&table, MESH_BUDGET / each);
     for (place, design) in front.iter_mut().enumerate() {
         design.mesh = design.mesh.take().filter(|_| kept.binary_search(&place).is_ok());

@@ -105,6 +105,7 @@ impl FileSection {
                 asy: of(self.Asy),
                 asz: of(self.Asz),
                 shear: None,
+                shape: None,
             },
         };
         section.check().map_err(wrong)?;

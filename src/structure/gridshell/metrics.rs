@@ -4,6 +4,7 @@ use super::Place;
 use super::model::GridshellModel;
 use crate::structure::forces::{BetweenAll, Utilisation};
 use crate::structure::model::NodeId;
+use crate::structure::params::Quantity;
 use crate::structure::solver::Solver;
 use nalgebra::Vector3;
 
@@ -92,6 +93,20 @@ pub fn measure(
 }
 
 impl Metrics {
+    /// One quantity in the unit of its column, and where it is. Buckling factors are no matter of one state: none is told.
+    pub fn of(&self, quantity: Quantity) -> (f64, Place) {
+        match quantity {
+            Quantity::Deflection => self.deflection,
+            Quantity::DeflectionVertical => self.deflection_vertical,
+            Quantity::Utilisation => self.utilisation,
+            Quantity::UtilisationAll => self.utilisation_all,
+            Quantity::UtilisationVonMises => self.von_mises,
+            Quantity::Uplift => (self.uplift.0 / 1e3, self.uplift.1),
+            Quantity::SupportSlide => self.slide,
+            Quantity::BucklingFactor | Quantity::Buckling => (0.0, Place::Whole),
+        }
+    }
+
     const NONE: Self = {
         let none = (0.0, Place::Whole);
         Self {

@@ -1,8 +1,8 @@
 //! A pattern as a grid shell: the only part of the solver that knows both a [`Pattern`] and a frame model.
 //!
 //! `deflection`, `utilisation`, `buckling_factor` and their kin are, as metrics, the worst over all combinations that a
-//! requirement of that quantity names (or, failing that, one of the same family: the deflections, the utilisations);
-//! else of the one called `sls` (deflections) or `uls` (the others); else of all. The order in which requirements are
+//! requirement of that quantity names (or, failing that, one of the same family: the deflections with the slide of supports, the
+//! utilisations); else of the one called `sls` (deflections) or `uls` (utilisations, buckling); else of all, as the uplift. The order in which requirements are
 //! written does not matter, and which combination governs is told with the value ([`Governing`]).
 
 mod evaluate;
@@ -68,13 +68,20 @@ pub struct RequirementResult {
 
 impl RequirementResult {
     /// max(0, value/limit − 1) for an upper limit, max(0, 1 − value/limit) for a lower one (docs/reference/search.md §1.2).
+    /// Beyond a limit of 0, the value.
     pub fn excess(&self) -> f64 {
+        if self.limit == 0.0 {
+            return if self.upper { self.value.max(0.0) } else { 0.0 };
+        }
         let ratio = self.value / self.limit;
         if self.upper { (ratio - 1.0).max(0.0) } else { (1.0 - ratio).max(0.0) }
     }
 
     /// How much of the limit is used: value/limit for an upper one, limit/value for a lower one.
     pub fn used(&self) -> f64 {
+        if self.value <= 0.0 && self.upper {
+            return 0.0;
+        }
         if self.upper { self.value / self.limit } else { self.limit / self.value }
     }
 }
@@ -133,9 +140,9 @@ pub struct Response {
     pub utilisation_all_inner: f64,
     /// First positive linear buckling factor; infinite if there is none.
     pub buckling_factor: f64,
-    /// Largest pull on a support in any combination, kN.
+    /// Largest pull on a support, the worst over the combinations required of it, or all, kN.
     pub uplift_kn: f64,
-    /// Largest horizontal movement of a supported node, in the combinations of `deflection`, m.
+    /// Largest horizontal movement of a supported node, the worst over the combinations required of it, or those of `deflection`, m.
     pub support_slide_m: f64,
     /// Which combination each of these is taken from.
     pub governing: Governing,

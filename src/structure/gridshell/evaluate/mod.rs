@@ -12,7 +12,7 @@ use crate::structure::buckling::{self, Mode};
 use crate::structure::forces::BetweenAll;
 use crate::structure::frame::{NAMING, silence};
 use crate::structure::mechanism;
-use crate::structure::params::{Quantity, StructureParams};
+use crate::structure::params::{Family, Quantity, StructureParams};
 use crate::structure::second_order::{Aim, LeastStep, Reason, Room};
 use crate::structure::section::Section;
 use crate::structure::solver::{Combination, Solver};
@@ -332,9 +332,10 @@ impl<'a> Evaluator<'a> {
 
     fn shares(&mut self, by_buckling: bool) -> Result<Vec<f64>, AnalysisError> {
         let params = self.params;
-        let wanted =
-            params.requirements.iter().filter(|r| (r.quantity == Quantity::BucklingFactor) == by_buckling);
-        wanted.map(|required| Ok(self.requirement(required)?.used())).collect()
+        let is_wanted = |q: Quantity| q.is_sized_for() && (q.family() == Family::Buckling) == by_buckling;
+        let wanted = params.requirements.iter().filter(|r| r.analysed().is_some_and(is_wanted));
+        let results = wanted.map(|required| self.requirement(required));
+        results.filter_map(Result::transpose).map(|result| Ok(result?.used())).collect()
     }
 
     fn answer(&self, index: usize) -> Answer<'_> {

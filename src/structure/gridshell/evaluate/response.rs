@@ -44,15 +44,16 @@ impl Evaluator<'_> {
         let requirements = &self.params.requirements;
         let named = |wanted: &dyn Fn(Quantity) -> bool| -> Vec<usize> {
             let names = |state: &State| {
-                requirements.iter().any(|r| wanted(r.quantity) && r.combination == state.name)
+                requirements.iter().any(|r| {
+                    r.analysed().is_some_and(wanted) && r.combination.as_deref() == Some(&*state.name)
+                })
             };
             (0..self.states.len()).filter(|&s| names(&self.states[s])).collect()
         };
         let family = quantity.family();
-        let usual = if family == Family::Deflections { "sls" } else { "uls" };
         let own = named(&|q| q == quantity);
         let related = named(&|q| q.family() == family);
-        let usual = self.index_of(usual).into_iter().collect();
+        let usual = family.usual().and_then(|name| self.index_of(name)).into_iter().collect();
         let all = (0..self.states.len()).collect();
         [own, related, usual, all].into_iter().find(|list: &Vec<usize>| !list.is_empty()).unwrap_or_default()
     }
@@ -73,10 +74,10 @@ impl Evaluator<'_> {
         worst.ok_or_else(no_combination)
     }
 
-    /// The least buckling factor over the combinations of that quantity, and the combination.
-    fn least_factor(&mut self) -> Result<(f64, usize), AnalysisError> {
+    /// The least buckling factor over combinations, and the combination; of equal ones the first by name.
+    fn least_factor(&mut self, combinations: &[usize]) -> Result<(f64, usize), AnalysisError> {
         let mut least: Option<(f64, usize)> = None;
-        for s in self.combinations_of(Quantity::BucklingFactor) {
+        for &s in combinations {
             let factor = self.mode(s)?.map_or(f64::INFINITY, |mode| mode.factor);
             if least.is_none_or(|(known, _)| factor < known || factor.is_nan()) {
                 least = Some((factor, s));
@@ -85,36 +86,47 @@ impl Evaluator<'_> {
         least.ok_or_else(no_combination)
     }
 
-    /// How a requirement fares at the current height.
-    pub fn requirement(&mut self, required: &RequirementParams) -> Result<RequirementResult, AnalysisError> {
-        let index = self.index_of(&required.combination).ok_or_else(|| AnalysisError::Params {
-            key: "requirement.combination".into(),
-            message: format!("there is no combination {:?}", required.combination),
-        })?;
-        let (value, place) = self.value(required.quantity, index)?;
+    /// How a requirement of a quantity of the analysis fares at the current height; none of another metric.
+    pub fn requirement(
+        &mut self,
+        required: &RequirementParams,
+    ) -> Result<Option<RequirementResult>, AnalysisError> {
+        let Some(quantity) = required.analysed() else { return Ok(None) };
+        let combinations = match &required.combination {
+            Some(name) => vec![self.index_of(name).ok_or_else(|| AnalysisError::Params {
+                key: "requirement.combination".into(),
+                message: format!("there is no combination {name:?}"),
+            })?],
+            None => self.combinations_of(quantity),
+        };
+        let worst = match quantity.family() {
+            Family::Buckling => self.worst_buckling(quantity, &combinations)?,
+            _ => self.worst(&combinations, |metrics| metrics.of(quantity))?,
+        };
         let (limit, upper) = match (required.max, required.min) {
             (Some(max), _) => (max, true),
             (None, min) => (min.unwrap_or(0.0), false),
         };
-        let combination = required.combination.clone();
-        Ok(RequirementResult { quantity: required.quantity, combination, place, value, limit, upper })
+        let combination = self.states[worst.combination].name.clone();
+        Ok(Some(RequirementResult {
+            quantity,
+            combination,
+            place: worst.place,
+            value: worst.value,
+            limit,
+            upper,
+        }))
     }
 
-    fn value(&mut self, quantity: Quantity, index: usize) -> Result<(f64, Place), AnalysisError> {
-        if quantity == Quantity::BucklingFactor {
-            return Ok(match self.mode(index)? {
-                None => (f64::INFINITY, Place::Whole),
-                Some(mode) => (mode.factor, self.place_of(&mode)),
-            });
-        }
-        let metrics = self.metrics(index);
-        Ok(match quantity {
-            Quantity::Deflection => metrics.deflection,
-            Quantity::DeflectionVertical => metrics.deflection_vertical,
-            Quantity::Utilisation => metrics.utilisation,
-            Quantity::UtilisationAll => metrics.utilisation_all,
-            Quantity::UtilisationVonMises | Quantity::BucklingFactor => metrics.von_mises,
-        })
+    /// The least factor over combinations, or its inverse, and where that mode moves most.
+    fn worst_buckling(&mut self, quantity: Quantity, combinations: &[usize]) -> Result<Worst, AnalysisError> {
+        let (factor, combination) = self.least_factor(combinations)?;
+        let place = match self.mode(combination)? {
+            None => Place::Whole,
+            Some(mode) => self.place_of(&mode),
+        };
+        let value = if quantity == Quantity::Buckling { 1.0 / factor } else { factor };
+        Ok(Worst { value, place, combination })
     }
 
     fn place_of(&self, mode: &Mode) -> Place {
@@ -124,24 +136,25 @@ impl Evaluator<'_> {
     /// All metrics and requirements at this height.
     pub fn response(&mut self, height: f64) -> Result<Response, AnalysisError> {
         self.statics(height)?;
-        let (buckling_factor, buckling) = self.least_factor()?;
-        let requirements: Result<Vec<_>, _> =
-            self.params.requirements.iter().map(|r| self.requirement(r)).collect();
+        let buckled = self.combinations_of(Quantity::BucklingFactor);
+        let (buckling_factor, buckling) = self.least_factor(&buckled)?;
+        let requirements = self.params.requirements.iter().map(|r| self.requirement(r));
+        let requirements: Result<Vec<_>, _> = requirements.filter_map(Result::transpose).collect();
         // Last of what needs a factor: it takes the room of that of K.
         self.prove_stable()?;
-        let deflections = self.combinations_of(Quantity::Deflection);
+        let mut envelope = |quantity| {
+            let combinations = self.combinations_of(quantity);
+            self.worst(&combinations, |metrics| metrics.of(quantity))
+        };
+        let deflection = envelope(Quantity::Deflection)?;
+        let vertical = envelope(Quantity::DeflectionVertical)?;
+        let utilisation = envelope(Quantity::Utilisation)?;
+        let utilisation_all = envelope(Quantity::UtilisationAll)?;
+        let von_mises = envelope(Quantity::UtilisationVonMises)?;
+        let uplift = envelope(Quantity::Uplift)?;
+        let slide = envelope(Quantity::SupportSlide)?;
         let utilisations = self.combinations_of(Quantity::Utilisation);
         let all = self.combinations_of(Quantity::UtilisationAll);
-        let deflection = self.worst(&deflections, |m| m.deflection)?;
-        let verticals = self.combinations_of(Quantity::DeflectionVertical);
-        let vertical = self.worst(&verticals, |m| m.deflection_vertical)?;
-        let utilisation = self.worst(&utilisations, |m| m.utilisation)?;
-        let utilisation_all = self.worst(&all, |m| m.utilisation_all)?;
-        let mises = self.combinations_of(Quantity::UtilisationVonMises);
-        let von_mises = self.worst(&mises, |m| m.von_mises)?;
-        let every: Vec<usize> = (0..self.states.len()).collect();
-        let uplift = self.worst(&every, |m| m.uplift)?;
-        let slide = self.worst(&deflections, |m| m.slide)?;
         let area = self.solver.sections()[0].area;
         let mass = area * self.params.material.density_kg_m3 * self.model.total_length;
         let name = |combination: usize| self.states[combination].name.clone();
@@ -171,7 +184,7 @@ impl Evaluator<'_> {
             utilisation_inner: self.worst(&utilisations, |m| m.inner)?.value,
             utilisation_all_inner: self.worst(&all, |m| m.inner_all)?.value,
             buckling_factor,
-            uplift_kn: uplift.value / 1e3,
+            uplift_kn: uplift.value,
             support_slide_m: slide.value,
             governing,
             requirements: requirements?,
@@ -197,7 +210,8 @@ impl Evaluator<'_> {
                 self.detail(s, metrics)
             })
             .collect();
-        let (_, index) = self.least_factor()?;
+        let buckled = self.combinations_of(Quantity::BucklingFactor);
+        let (_, index) = self.least_factor(&buckled)?;
         let Some(mode) = self.mode(index)? else { return Ok((results, None)) };
         let certificate = (proof == Proof::Certificate).then(|| self.certificate(index, mode.factor));
         let mut shape = by_node(self.solver.system(), &mode.shape, self.model.frame.nodes().len());
