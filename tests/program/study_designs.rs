@@ -200,9 +200,15 @@ combinations = {{ only = {{ case = 1 }} }}
     for (lopsided, words) in [
         (area("x > 10"), "structure.loads.case.factor does not have it: it is "),
         (area("nx < 0"), "structure.loads.case.factor"),
-        (point("[4, 3], [10, 7]", "0, 0, -1e3"), "points_m does not have it: no point is the image of (4, 3)"),
+        (
+            point("[4, 3], [10, 7]", "0, 0, -1e3"),
+            "points_m does not have it: no point is the image of (4, 3)",
+        ),
         (point("[10, 7]", "50, 0, -1e3"), "force_n does not have it"),
-        (point("[10, 17]", "0, 0, -1e3"), "structure.loads.case.points_m[0]: found [10, 17], which is not in"),
+        (
+            point("[10, 17]", "0, 0, -1e3"),
+            "structure.loads.case.points_m[0]: found [10, 17], which is not in",
+        ),
     ] {
         let error = roof(&lopsided).unwrap_err();
         assert!(error.contains(words), "{lopsided}: {error}");
