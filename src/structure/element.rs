@@ -18,6 +18,9 @@ use super::model::{Frame3, FrameModel, Material, MemberKind};
 use super::section::Section;
 use nalgebra::{Matrix3, Vector3};
 
+/// Unknowns of a node.
+pub const DOFS: usize = 6;
+
 /// The four blocks of an element matrix, in whatever axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blocks {

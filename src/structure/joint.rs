@@ -13,9 +13,8 @@
 //! With a = 1 the unknown is the rotation of the spring: a spring of 10¹² EI/L costs no digit, and one that is rigid is y
 //! held at 0. With a = 0 it is that of the end: a hinge gives its node exactly nothing.
 
-use super::element::{Blocks, EndActions, Ends, Stiffness};
+use super::element::{Blocks, DOFS, EndActions, Ends, Stiffness};
 use super::model::{EndJoint, Frame3, FrameModel, Joint};
-use super::system::DOFS;
 use nalgebra::{Matrix3, Vector3};
 
 /// A member's matrix for u₁, r₁, u₂, r₂ (global), y₁, y₂ (local).

@@ -6,6 +6,8 @@
 //! *elimination order*: unknown d of node n is entry `first(n) + d`. A member that is not joined rigidly has a block of
 //! its own beside its nodes', for the rotations of its two ends ([`super::joint`]).
 
+pub use super::element::DOFS;
+
 use super::element::Blocks;
 use super::joint::{BLOCKS, Turned};
 use super::model::{FrameModel, MemberKind};
@@ -15,8 +17,6 @@ use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
 use nalgebra::Matrix3;
 use nalgebra_sparse::{CooMatrix, CscMatrix};
 
-/// Unknowns of a node.
-pub const DOFS: usize = 6;
 const BLOCK: usize = DOFS * DOFS;
 
 /// The model is too large for the memory or the index type.

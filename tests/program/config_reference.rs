@@ -20,13 +20,18 @@ fn reference_is_up_to_date() {
 
 /// Numbers that may be anything finite: places, angles, heights of surfaces, factors, loads, values of objectives, weights (checked with
 /// the objectives).
-const FREE: [&str; 19] = [
+const FREE: [&str; 24] = [
     "regions_m",
     "aspiration",
     "weights",
     "mark_m",
     "nodes_near_m",
     "sides_near_m",
+    "inside_near_m",
+    "force_n",
+    "kelvin",
+    "pressure_pa",
+    "thermal_expansion_per_k",
     "points_m",
     "center_m",
     "rotation_deg",

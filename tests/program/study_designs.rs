@@ -158,6 +158,63 @@ kind = "plane"
     }
 }
 
+/// Of loads too, and of columns: what is not its own image makes two designs differ that are images of each other.
+#[test]
+fn symmetries_are_those_of_the_loads_too() {
+    let roof = |load: &str| {
+        let text = format!(
+            r#"
+version = 1
+[domain]
+symmetries = ["mirror-x"]
+[[domain.loop]]
+kind = "polyline"
+points_m = [[0, 0], [20, 0], [20, 10], [0, 10]]
+[surface]
+kind = "plane"
+[structure]
+requirement = []
+loads = {{ case = {load} }}
+combinations = {{ only = {{ case = 1 }} }}
+"#
+        );
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("roof.toml");
+        std::fs::write(&file, text).unwrap();
+        let config = ResolvedConfig::open(&file, &[]).unwrap();
+        Study::of(&config).map(|_| ()).map_err(|error| error.to_string())
+    };
+    let area = |factor: &str| format!("{{ kind = 'area', down_pa = 1e3, factor = '{factor}' }}");
+    let point = |points: &str, force: &str| {
+        format!("{{ kind = 'point', points_m = [{points}], force_n = [{force}] }}")
+    };
+    for symmetric in [
+        area("abs(x - 10) < 4"),
+        area("(y > 5) + 0.3 * abs(nx)"),
+        area("z / 3"),
+        "{ kind = 'temperature', kelvin = 30 }".to_owned(),
+        point("[4, 3], [16, 3], [10, 7]", "0, 200, -1e3"),
+    ] {
+        assert_eq!(roof(&symmetric), Ok(()), "{symmetric}");
+    }
+    for (lopsided, words) in [
+        (area("x > 10"), "structure.loads.case.factor does not have it: it is "),
+        (area("nx < 0"), "structure.loads.case.factor"),
+        (
+            point("[4, 3], [10, 7]", "0, 0, -1e3"),
+            "points_m does not have it: no point is the image of (4, 3)",
+        ),
+        (point("[10, 7]", "50, 0, -1e3"), "force_n does not have it"),
+        (
+            point("[10, 17]", "0, 0, -1e3"),
+            "structure.loads.case.points_m[0]: found [10, 17], which is not in",
+        ),
+    ] {
+        let error = roof(&lopsided).unwrap_err();
+        assert!(error.contains(words), "{lopsided}: {error}");
+    }
+}
+
 /// A roof on two of its walls, and on points of the two others.
 #[test]
 fn supports_are_found_by_points_of_the_boundary() {

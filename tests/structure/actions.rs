@@ -120,8 +120,8 @@ fn a_warm_dome_rises() {
     reaction(&found).iter().for_each(|r| close(*r, 0.0, most));
     let case = &found.combinations[0];
     let top = (4 * 9 + 4) as usize;
-    // A hinged arch of this rise alone would give about α ΔT (a²/8h + …) ≈ 9 mm.
-    assert!(case.displacements[top][2] > 0.004, "{:?}", case.displacements[top]);
+    // Free to slide it would grow alike everywhere, by α ΔT × 3 m at the top; held, it can only go up.
+    assert!(case.displacements[top][2] > 1.2e-5 * 30.0 * 3.0, "{:?}", case.displacements[top]);
     let least = case.member_forces.iter().map(|f| f.start.n).fold(0.0, f64::min);
     assert!(least < -0.02 * most && least > -most, "{least} {most}");
     // A flat one, held against shifts at its boundary alone, has all of it.
