@@ -2,7 +2,7 @@
 
 use assert_cmd::Command;
 use calamine::{Data, Reader, Xlsx};
-use quadrille::structure::model::{LoadCase, Material, Member, NodalLoad, Support, UniformLoad};
+use quadrille::structure::model::{LoadCase, Material, Member, MemberKind, NodalLoad, Support, UniformLoad};
 use quadrille::structure::section::Section;
 use quadrille::structure::{FrameAnalysis, FrameModel, FrameParts, FrameResult, Order, frame};
 use serde_json::Value;
@@ -85,13 +85,17 @@ fn model_of(deck: &str) -> FrameModel {
         let tag = |k: usize| words[k].parse::<u32>().unwrap() - 1;
         match words[0] {
             "node" => nodes.push([number(2), number(3), number(4)]),
-            "fix" => {
-                supports.push(Support { node: tag(1), fixed: std::array::from_fn(|d| number(2 + d) == 1.0) })
-            }
+            "fix" => supports.push(Support::fixed(tag(1), std::array::from_fn(|d| number(2 + d) == 1.0))),
             "geomTransf" => ups.push([number(3), number(4), number(5)]),
             "element" => {
                 properties = std::array::from_fn(|p| number(5 + p));
-                members.push(Member { start: tag(3), end: tag(4), up: ups[tag(11) as usize], section: 0 });
+                members.push(Member {
+                    start: tag(3),
+                    end: tag(4),
+                    up: ups[tag(11) as usize],
+                    section: 0,
+                    kind: MemberKind::RIGID,
+                });
             }
             "load" => nodal.push(NodalLoad { node: tag(1), load: std::array::from_fn(|d| number(2 + d)) }),
             "eleLoad" => on_members.push((tag(2), [number(5), number(6), number(7)])),
@@ -114,7 +118,13 @@ fn model_of(deck: &str) -> FrameModel {
             shear: None,
             shape: None,
         }],
-        material: Material { youngs_modulus: e, shear_modulus: g, density: 0.0, strength: 1.0 },
+        material: Material {
+            youngs_modulus: e,
+            shear_modulus: g,
+            density: 0.0,
+            strength: 1.0,
+            thermal_expansion: 0.0,
+        },
         shear_deformation: false,
         supports,
         load_cases: vec![],
@@ -126,7 +136,7 @@ fn model_of(deck: &str) -> FrameModel {
         let force = own.y * across + own.z * up + own.x * along;
         UniformLoad { member, force_per_length: [force.x, force.y, force.z] }
     });
-    parts.load_cases = vec![LoadCase { nodal, uniform: uniform.collect(), gravity: 0.0 }];
+    parts.load_cases = vec![LoadCase { nodal, uniform: uniform.collect(), ..LoadCase::default() }];
     FrameModel::new(parts).unwrap()
 }
 
