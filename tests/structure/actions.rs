@@ -123,7 +123,7 @@ fn a_warm_dome_rises() {
     // Free to slide it would grow alike everywhere, by α ΔT × 3 m at the top; held, it can only go up.
     assert!(case.displacements[top][2] > 1.2e-5 * 30.0 * 3.0, "{:?}", case.displacements[top]);
     let least = case.member_forces.iter().map(|f| f.start.n).fold(0.0, f64::min);
-    assert!(least < -0.02 * most && least > -most, "{least} {most}");
+    assert!(least < -0.02 * most && least >= -most * (1.0 + 1e-9), "{least} {most}");
     // A flat one, held against shifts at its boundary alone, has all of it.
     let flat = detailed(
         &grid_shell([4, 4], [SIDE, SIDE], |_, _| 0.0),
@@ -162,7 +162,9 @@ fn columns_inside() {
     params.supports.push(column);
     let found = detailed(&pattern, &params);
     let middle = 4 * 9 + 4;
-    assert!(found.combinations[0].displacements[middle as usize][2] > sag && sag < 0.0);
+    // A spring takes from the movement of its own node, to whichever side it was.
+    let held = found.combinations[0].displacements[middle as usize][2];
+    assert!(held * sag > 0.0 && held.abs() < sag.abs(), "{held} {sag}");
     let (_, push) = found.combinations[0].reactions.iter().find(|(n, _)| n.0 == middle).unwrap();
     let w = found.combinations[0].displacements[middle as usize][2];
     close(push[2].unwrap(), -2e6 * w, 1e4);
