@@ -10,7 +10,7 @@
 mod frame_support;
 
 use frame_support::grid_shell;
-use quadrille::config;
+use quadrille::config::ResolvedConfig;
 use quadrille::geometry::Pattern;
 use quadrille::structure::forces::BetweenAll;
 use quadrille::structure::gridshell::{GridshellModel, analyse};
@@ -160,10 +160,10 @@ fn print_growth(rows: &[Row]) {
 fn great_court(panels: u32) -> (Pattern, StructureParams) {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("configs/great_court.toml");
     let sets = [format!("pattern.panels={panels}"), "pattern.max_faces=100000".to_owned()];
-    let config = config::load(&file, &sets).unwrap();
-    let study = Study::new(&config, config::folder_of(&file)).unwrap();
+    let config = ResolvedConfig::open(&file, &sets).unwrap();
+    let study = Study::of(&config).unwrap();
     let design = study.develop(study.topology(&"".parse().unwrap()), Effort::Pattern).unwrap();
-    (design.pattern, config.structure.unwrap())
+    (design.pattern, config.config().structure.clone().unwrap())
 }
 
 fn main() {

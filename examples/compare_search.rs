@@ -28,11 +28,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use clap::Parser;
-use quadrille::config::{self, Config};
+use quadrille::config::{Config, ResolvedConfig};
 use quadrille::evolve::Violation;
 use quadrille::grammar::Tokens;
 use quadrille::mesh::canonical::Code;
-use quadrille::objectives::{METRICS, Metric};
+use quadrille::objectives::{METRICS, Objective};
 use quadrille::random::Rng;
 use quadrille::search::{
     Evaluation, Identity, Normalisation, Outcome, Problem, RuleOperator, Settings, Silent, Steps, StopFlag,
@@ -153,8 +153,7 @@ impl Problem for Shared<'_> {
 /// One way of searching: a config with its keys set.
 struct Variant {
     name: String,
-    config: Config,
-    folder: PathBuf,
+    config: ResolvedConfig,
 }
 
 impl Variant {
@@ -166,11 +165,7 @@ impl Variant {
             sets.push(format!("objectives.minimise={:?}", arguments.objectives));
         }
         let path = Path::new(path);
-        Ok(Self {
-            name: text.to_owned(),
-            config: config::load(path, &sets)?,
-            folder: config::folder_of(path).into(),
-        })
+        Ok(Self { name: text.to_owned(), config: ResolvedConfig::open(path, &sets)? })
     }
 
     /// Whether evaluations of `other` hold here too.
@@ -178,16 +173,16 @@ impl Variant {
         let worth = |c: &Config| {
             (c.domain.clone(), c.surface.clone(), c.topology.clone(), c.pattern.clone(), c.structure.clone())
         };
-        worth(&self.config) == worth(&other.config)
+        worth(self.config.config()) == worth(other.config.config())
     }
 
     /// One run.
     fn search(&self, cache: &Cache, seed: u64, threads: usize) -> Result<Outcome, Box<dyn Error>> {
-        let study = Study::new(&self.config, &self.folder)?;
-        let place = |metric: &&Metric| METRICS.iter().position(|m| m.name == metric.name);
+        let study = Study::of(&self.config)?;
+        let place = |objective: &Objective| METRICS.iter().position(|m| m.name == objective.metric.name);
         let objectives: Vec<usize> = study.objectives.iter().filter_map(place).collect();
         let settings = Settings {
-            search: self.config.search.clone(),
+            search: self.config.config().search.clone(),
             objectives: objectives.len(),
             ideal: vec![],
             reference: vec![],

@@ -26,7 +26,7 @@
 //! # A string by a config, its metrics by name
 //!
 //! ```
-//! use quadrille::{Effort, Project, Study, objectives};
+//! use quadrille::{Effort, ResolvedConfig, Study, objectives};
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let text = r#"
 //!     domain.loop = [{ kind = "polyline", points_m = [[0, 0], [8, 0], [8, 6], [0, 6]] }]
@@ -35,8 +35,8 @@
 //!     pattern.panels = 40
 //!     structure = {}
 //! "#;
-//! let project = Project::parse(text, "vault.toml".as_ref(), &[])?;
-//! let study = Study::of(&project.config, &project.inputs)?;
+//! let config = ResolvedConfig::parse(text, "vault.toml".as_ref(), &[])?;
+//! let study = Study::of(&config)?;
 //! let design = study.evaluate_topology(study.topology(&"ATTA".parse()?), Effort::Everything);
 //! let mass = objectives::named(&design.metrics, "mass").ok_or("no mass")?;
 //! assert!(mass > 1000.0, "{mass} kg");
@@ -105,6 +105,7 @@
 pub mod config;
 pub mod domain;
 pub mod evolve;
+pub mod expression;
 pub mod files;
 pub mod geometry;
 pub mod grammar;
@@ -121,7 +122,7 @@ pub mod structure;
 pub mod study;
 pub mod surface;
 
-pub use config::{Config, ConfigError, Project};
+pub use config::{Config, ConfigError, ResolvedConfig};
 pub use evolve::{Fitness, Population, Violation};
 pub use geometry::Pattern;
 pub use grammar::{Decoded, Rules, Tokens, decode};

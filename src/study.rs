@@ -4,11 +4,12 @@
 //! designer's commands with whole [`Design`]s.
 
 mod frozen;
+mod loads;
 mod remarks;
 mod supports;
 mod symmetry;
 
-use crate::config::{self, Config};
+use crate::config::{Config, ResolvedConfig};
 use crate::domain::params::Pinched;
 use crate::domain::{self, Domain, DomainError};
 use crate::evolve::{FAILED, Violation};
@@ -33,7 +34,6 @@ use crate::skeleton::{self, InitialError};
 use crate::structure::StructureParams;
 use crate::structure::gridshell::{self, AnalysisError, Detailed, Proof, Response};
 use crate::surface::{self, Surface, SurfaceError, SurfaceParams};
-use std::path::Path;
 use std::sync::Arc;
 
 /// A config made ready: domain, surface, initial mesh, and the parameters of every stage.
@@ -68,9 +68,6 @@ pub struct Study {
 /// Why a config cannot be made ready.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
-    /// The config was not made by [`config::Project`] or [`config::load`], and does not pass what these check.
-    #[error("{}", .0.iter().map(|p| format!("{}: {}", p.key, p.message)).collect::<Vec<_>>().join("\n"))]
-    Config(Vec<config::Problem>),
     /// The surface is faulty.
     #[error("{0}")]
     Surface(#[from] SurfaceError),
@@ -107,7 +104,20 @@ pub enum StudyError {
         /// Its image.
         v: f64,
     },
-    /// A point of a support that names nothing.
+    /// A load that the symmetries of the config do not carry into itself.
+    #[error(
+        "domain.symmetries: `{symmetry}` makes two designs the same that are images of each other, but {key} does not have it: \
+         {reason}; leave it out of domain.symmetries (topology.symmetry needs no symmetric loads), or make the load symmetric"
+    )]
+    LoadImage {
+        /// Key of the load.
+        key: String,
+        /// The symmetry.
+        symmetry: &'static str,
+        /// Where it fails.
+        reason: String,
+    },
+    /// A point of a support or a load that names nothing.
     #[error("{key}: {reason}")]
     SupportPoint {
         /// Its key.
@@ -162,7 +172,6 @@ impl StudyError {
     /// The key of the config that says what is wrong.
     pub fn key(&self, config: &Config) -> String {
         match self {
-            Self::Config(problems) => problems.first().map(|p| p.key.to_string()).unwrap_or_default(),
             Self::Surface(error) => error.key(),
             Self::Domain(DomainError::NotCovered { .. }) => match &config.surface {
                 SurfaceParams::Height { .. } => "surface.expression".to_owned(),
@@ -170,7 +179,9 @@ impl StudyError {
                 _ => "surface.kind".to_owned(),
             },
             Self::Domain(error) => error.key(&config.domain),
-            Self::Supports { .. } | Self::SupportImage { .. } => "domain.symmetries".to_owned(),
+            Self::Supports { .. } | Self::SupportImage { .. } | Self::LoadImage { .. } => {
+                "domain.symmetries".to_owned()
+            }
             Self::SupportPoint { key, .. } => key.clone(),
             Self::Initial(error) => error.key(&config.topology),
             Self::Mesh(_) => "topology.initial".to_owned(),
@@ -241,20 +252,12 @@ pub enum Effort {
 }
 
 impl Study {
-    /// Makes a config ready and reads the files that it names, relative to `folder`.
+    /// Makes a config ready.
     ///
     /// # Errors
     /// See [`StudyError`]; nothing has been evaluated then.
-    pub fn new(config: &Config, folder: &Path) -> Result<Self, StudyError> {
-        Self::of(config, &config::read_inputs(config, folder))
-    }
-
-    /// Makes a config ready; the files that it names are among `inputs`.
-    ///
-    /// # Errors
-    /// See [`StudyError`]; nothing has been evaluated then.
-    pub fn of(config: &Config, inputs: &Inputs) -> Result<Self, StudyError> {
-        config::check(config, inputs).map_err(StudyError::Config)?;
+    pub fn of(resolved: &ResolvedConfig) -> Result<Self, StudyError> {
+        let (config, inputs) = (resolved.config(), resolved.inputs());
         let surface = surface::build(&config.surface, inputs)?;
         let domain = Domain::resolve_for(&config.domain, &surface, inputs, config.pattern.grain())?;
         let initial = initial_mesh(config, &domain, inputs)?;
@@ -292,8 +295,7 @@ impl Study {
             pattern: config.pattern.clone(),
             structure: config.structure.clone(),
             search: config.search.clone(),
-            // What is wrong with them was told when the config was checked; only a search needs them.
-            seeds: config::seeds::strings(&config.search, inputs).unwrap_or_default(),
+            seeds: resolved.seeds().to_vec(),
         })
     }
 

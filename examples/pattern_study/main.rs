@@ -10,7 +10,7 @@
 //! all designs (`designs.csv`), and pictures of the first and the worst ones. With `--set key=value` keys of the config are changed.
 #![allow(clippy::print_stdout, reason = "a program")]
 
-use quadrille::config;
+use quadrille::config::ResolvedConfig;
 use quadrille::domain::Domain;
 use quadrille::domain::params::Pinched;
 use quadrille::geometry::metrics::{Fabrication, measure};
@@ -50,9 +50,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let arg = |i: usize, default: &str| args.get(i).cloned().unwrap_or_else(|| default.to_owned());
     let (file, source) = (arg(0, "configs/great_court.toml"), arg(1, "structured"));
     let file = Path::new(&file);
-    let mut config = config::load(file, &changes)?;
-    config.structure = None;
-    let study = Study::new(&config, config::folder_of(file))?;
+    let resolved = ResolvedConfig::open(file, &changes)?;
+    let config = resolved.config();
+    let study = Study::of(&resolved)?;
     let is_file = source.ends_with(".csv");
     let folder = args.get(if is_file { 2 } else { 4 }).map(Path::new);
     let strings: Vec<Tokens> = if is_file {

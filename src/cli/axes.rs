@@ -32,9 +32,9 @@ const TRIES: usize = 1000;
 
 /// Prints the two lines.
 pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
-    let project = args.config.load(&[])?;
-    let study = args.config.study(&project)?;
-    let config = &project.config;
+    let resolved = args.config.load(&[])?;
+    let study = args.config.study(&resolved)?;
+    let config = resolved.config();
     let topologies = different(&study, config.run.seed.unwrap_or(0), args.designs as usize);
     console.note(&format!("evaluating {} random designs", topologies.len()));
     let pool = thread_pool(args.threads.unwrap_or(config.run.threads))?;

@@ -20,9 +20,9 @@ pub struct Args {
 
 /// Prints the resolved config.
 pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
-    let project = args.config.load(&[])?;
-    let study = args.config.study(&project)?;
-    let config = &project.config;
+    let resolved = args.config.load(&[])?;
+    let study = args.config.study(&resolved)?;
+    let config = resolved.config();
     for warning in config::warnings(config).into_iter().chain(study.warnings()) {
         console.warn(&warning);
     }

@@ -1,7 +1,7 @@
 //! Arguments that every command with a config has.
 
 use super::CliError;
-use quadrille::config::Project;
+use quadrille::config::ResolvedConfig;
 use quadrille::study::{Study, StudyError};
 use std::path::PathBuf;
 
@@ -18,19 +18,19 @@ pub struct ConfigArgs {
 
 impl ConfigArgs {
     /// Reads the config and the files that it names; `more` are further `key=value` pairs, which win.
-    pub fn load(&self, more: &[String]) -> Result<Project, CliError> {
+    pub fn load(&self, more: &[String]) -> Result<ResolvedConfig, CliError> {
         let sets: Vec<String> = self.set.iter().chain(more).cloned().collect();
-        Ok(Project::open(&self.config, &sets)?)
+        Ok(ResolvedConfig::open(&self.config, &sets)?)
     }
 
     /// Makes a config that was read ready.
-    pub fn study(&self, project: &Project) -> Result<Study, CliError> {
-        Study::of(&project.config, &project.inputs).map_err(|error| located(project, &error))
+    pub fn study(&self, resolved: &ResolvedConfig) -> Result<Study, CliError> {
+        Study::of(resolved).map_err(|error| located(resolved, &error))
     }
 }
 
 /// What is wrong, with the place of the key that says it.
-pub fn located(project: &Project, error: &StudyError) -> CliError {
-    let place = project.place(&error.key(&project.config));
+pub fn located(resolved: &ResolvedConfig, error: &StudyError) -> CliError {
+    let place = resolved.place(&error.key(resolved.config()));
     CliError::Input(format!("{place}: {error}"))
 }

@@ -38,7 +38,7 @@ pub struct Args {
 
 /// Evaluates and compares.
 pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
-    let project = args.config.load(&[])?;
+    let resolved = args.config.load(&[])?;
     let mut named: Vec<(String, Tokens)> = Vec::new();
     for text in &args.string {
         named.push((text.clone(), parse_string("--string", text)?));
@@ -52,13 +52,13 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
         refuse_file(folder)?;
         refuse_results(folder)?;
     }
-    let study = args.config.study(&project)?;
+    let study = args.config.study(&resolved)?;
     let save = args.out.as_deref().map(Designs::below).transpose()?;
     let save = save.as_ref().map(|designs| |files: DesignFiles| designs.save(&files));
     let comparison = Comparison::of(
         &study,
         named,
-        project.config.run.threads,
+        resolved.config().run.threads,
         save.as_ref().map(|save| save as &Save<'_>),
     )?;
     out!("{}", comparison.to_text());

@@ -1,6 +1,8 @@
 //! A folder as an argument: one to write into, or a results folder, read back.
 
+use super::config_args::located;
 use super::{CliError, Console};
+use quadrille::config::ResolvedConfig;
 use quadrille::files::lock::Lock;
 use quadrille::grammar::Tokens;
 use quadrille::mesh::Code;
@@ -74,8 +76,8 @@ impl FolderArgs {
         let inputs = inputs.map_err(|wrong| {
             CliError::Input(wrong.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
         })?;
-        Study::of(config, &inputs)
-            .map_err(|error| CliError::Input(format!("{}: {error}", self.folder.display())))
+        let resolved = ResolvedConfig::again(config, inputs, &self.folder)?;
+        Study::of(&resolved).map_err(|error| located(&resolved, &error))
     }
 }
 

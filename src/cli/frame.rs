@@ -15,14 +15,21 @@ use std::process::ExitCode;
 /// The model is JSON in SI units (m, N, Pa, kg); docs/frame.md tells what each key means, and what
 /// is printed:
 ///
-/// { "material": {"E", "G", "density", "fy"},
+/// { "material": {"E", "G", "density", "fy", "thermal_expansion"},
 ///   "section": {"kind": "box", "width", "height", "thickness"} or {"kind": "round", "diameter"}
 ///     or {"kind": "tube", "diameter", "thickness"}
 ///     or {"kind": "properties", "A", "Iy", "Iz", "J", and where known "Wy", "Wz", "Asy", "Asz"},
-///   "nodes": [[x, y, z] …], "members": [{"start", "end", "up": [x, y, z]} …],
-///   "supports": [{"node", "fixed": [ux, uy, uz, rx, ry, rz]} …],
+///     of all members; or "sections": [ … ], of which each member names one,
+///   "nodes": [[x, y, z] …],
+///   "members": [{"start", "end", "up": [x, y, z], "section", "kind": "beam" or "truss",
+///     "start_release", "end_release": {"bending_y", "bending_z", "torsion"}} …],
+///     a release being "rigid", "hinge", {"ei_per_l"}, {"gj_per_l"} (torsion) or {"nm_per_rad"},
+///   "supports": [{"node", "fixed": [ux, uy, uz, rx, ry, rz], "stiffness": [N/m, Nm/rad],
+///     "displacement": [m, rad]} …],
 ///   "loads": {"nodal": [{"node", "force", "moment"} …],
-///     "member_uniform": [{"member", "force_per_length"} …], "gravity": g},
+///     "member_uniform": [{"member", "force_per_length"} …],
+///     "pressure": [{"member", "force_per_length"} …], "temperature": [{"member", "kelvin"} …],
+///     "gravity": g},
 ///   "shear_deformation": true or false, "analysis": {"order": 1 or 2, "buckling_modes": n} }
 ///
 /// Nodes and members are counted from 0. `name`, `description`, `source`, `expected`, `tolerance`

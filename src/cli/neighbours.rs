@@ -41,12 +41,12 @@ const LISTED: usize = 5;
 
 /// Evaluates and ranks.
 pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
-    let project = args.config.load(&[])?;
+    let resolved = args.config.load(&[])?;
     let tokens = parse_string("--string", &args.string)?;
     if let Some(path) = &args.out {
         writable(path)?;
     }
-    let study = args.config.study(&project)?;
+    let study = args.config.study(&resolved)?;
     let expressed = study.decode(&tokens).expressed;
     let mut seen = BTreeSet::from([study.topology(&tokens).code]);
     let mut named = vec![(expressed.to_string(), expressed.clone())];
@@ -56,7 +56,7 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
         }
     }
     console.note(&format!("evaluating {} different designs one strip away", named.len() - 1));
-    let comparison = Comparison::of(&study, named, project.config.run.threads, None)?;
+    let comparison = Comparison::of(&study, named, resolved.config().run.threads, None)?;
     let count = comparison.entries.len() - 1;
     let feasible = comparison.entries[1..].iter().filter(|e| e.evaluation.violation.is_feasible()).count();
     let meant = match tokens == expressed {

@@ -32,7 +32,7 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     for error in inputs.as_ref().err().into_iter().flatten() {
         console.warn(&error.to_string());
     }
-    let data = report::of(folder, loaded, inputs.as_ref().ok()).map_err(|error| wrong(&error))?;
+    let data = report::of(folder, loaded, inputs.ok()).map_err(|error| wrong(&error))?;
     let page = report::render(&data).map_err(|error| CliError::Failed(error.to_string()))?;
     let path = folder.join(REPORT);
     atomic::write(&path, page.as_bytes()).map_err(CliError::write(&path))?;

@@ -7,7 +7,7 @@ use super::quote::quote;
 use super::watch::Watch;
 use super::writing::WritingDisplay;
 use super::{CliError, Console, exit, signals};
-use quadrille::config::{Config, Project, to_toml};
+use quadrille::config::{Config, ResolvedConfig, to_toml};
 use quadrille::files::names::{PARETO, REPORT, excel_name};
 use quadrille::output::folder::{Folder, FolderError, Opening};
 use quadrille::output::manifest::Status;
@@ -73,28 +73,28 @@ enum CsvDialect {
 
 /// Runs the search and writes the results folder.
 pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
-    let mut project = args.config.load(&args.sets())?;
-    let study = args.config.study(&project)?;
+    let mut resolved = args.config.load(&args.sets())?;
+    let study = args.config.study(&resolved)?;
     // Before the folder is touched: a run without threads leaves it as it was.
-    let server = ThreadServer::new(&study, project.config.run.threads)?;
-    let path = args.folder(&project.config);
+    let server = ThreadServer::new(&study, resolved.config().run.threads)?;
+    let path = args.folder(resolved.config());
     refuse_file(&path)?;
-    let seed = fix_seed(&mut project.config, &path, args.resume)?;
-    let mut folder = args.open(&path, &project)?;
+    let seed = fix_seed(&mut resolved, &path, args.resume)?;
+    let mut folder = args.open(&path, &resolved)?;
     for warning in study.warnings().into_iter().chain(folder.unlocked()) {
         console.warn(&warning);
     }
     seed.iter().for_each(|told| console.note(told));
-    let (mut store, sitting) = args.begin(&mut folder, &project)?;
+    let (mut store, sitting) = args.begin(&mut folder, &resolved)?;
     folder.take_warnings().iter().for_each(|warning| console.warn(warning));
     let stop = StopFlag::new();
     let clock = Instant::now();
     let mut watch =
-        Watch { display: Display::new(&project.config, study.baseline(), *console), sitting, folder };
-    let outcome = evolve(&study, server, &project.config, &mut store, &stop, &mut watch, console)?;
+        Watch { display: Display::new(resolved.config(), study.baseline(), *console), sitting, folder };
+    let outcome = evolve(&study, server, resolved.config(), &mut store, &stop, &mut watch, console)?;
     let Watch { mut sitting, mut folder, .. } = watch;
     let dialect = args.dialect(&folder);
-    let run = Run { study: &study, project: &project, outcome: &outcome, dialect };
+    let run = Run { study: &study, resolved: &resolved, outcome: &outcome, dialect };
     let is_cut = matches!(outcome.ended, Ended::Interrupted(_));
     let names = if is_cut { run.table_names() } else { run.names() };
     sitting.searched(&mut folder, &outcome, store.worked(), names).map_err(failed)?;
@@ -148,14 +148,14 @@ impl Args {
     }
 
     /// The results folder, locked, of a run that can be begun or gone on with there.
-    fn open(&self, path: &Path, project: &Project) -> Result<Folder, CliError> {
+    fn open(&self, path: &Path, resolved: &ResolvedConfig) -> Result<Folder, CliError> {
         let opening = match (self.resume, self.force) {
             (true, _) => Opening::Resume,
             (_, true) => Opening::Overwrite,
             _ => Opening::New,
         };
         if self.resume {
-            Store::check(path, &results::record(project)).map_err(refused)?;
+            Store::check(path, &results::record(resolved)).map_err(refused)?;
         }
         Folder::open(path, opening).map_err(|error| match error {
             FolderError::Io { ref source, .. } if source.kind() == ErrorKind::StorageFull => {
@@ -166,15 +166,15 @@ impl Args {
     }
 
     /// Makes the folder this run's.
-    fn begin(&self, folder: &mut Folder, project: &Project) -> Result<(Store, Sitting), CliError> {
-        let record = results::record(project);
-        let threads = match project.config.run.threads {
+    fn begin(&self, folder: &mut Folder, resolved: &ResolvedConfig) -> Result<(Store, Sitting), CliError> {
+        let record = results::record(resolved);
+        let threads = match resolved.config().run.threads {
             0 => std::thread::available_parallelism().map_or(1, usize::from),
             threads => threads,
         };
         let begin = |folder: &mut Folder| -> Result<Sitting, CliError> {
             folder.begin().map_err(failed)?;
-            Sitting::begin(folder, project, threads).map_err(failed)
+            Sitting::begin(folder, resolved, threads).map_err(failed)
         };
         if self.resume {
             let store = Store::resume(folder.path(), record).map_err(refused)?;
@@ -217,8 +217,8 @@ fn refused(error: search::StoreError) -> CliError {
 }
 
 /// The seed of the config, else that of the run to be resumed, else one drawn; what is told of one not in the config.
-fn fix_seed(config: &mut Config, folder: &Path, resume: bool) -> Result<Option<String>, CliError> {
-    if config.run.seed.is_some() {
+fn fix_seed(resolved: &mut ResolvedConfig, folder: &Path, resume: bool) -> Result<Option<String>, CliError> {
+    if resolved.config().run.seed.is_some() {
         return Ok(None);
     }
     let recorded = match resume {
@@ -227,7 +227,7 @@ fn fix_seed(config: &mut Config, folder: &Path, resume: bool) -> Result<Option<S
     };
     let recorded = recorded.and_then(|config| config.get("run")?.get("seed")?.as_u64());
     let seed = recorded.unwrap_or_else(random::fresh_seed);
-    config.run.seed = Some(seed);
+    resolved.seed_with(seed);
     Ok(Some(format!("seed {seed}{}", if recorded.is_some() { ", of the run resumed" } else { ", drawn" })))
 }
 

@@ -2,7 +2,7 @@
 
 use super::config_args::{ConfigArgs, located};
 use super::{CliError, Console};
-use quadrille::config::Project;
+use quadrille::config::ResolvedConfig;
 use quadrille::domain::Domain;
 use quadrille::io::obj;
 use quadrille::mesh::BaseMesh;
@@ -37,14 +37,14 @@ enum Format {
 
 /// Prints the mesh.
 pub fn run(args: Args, _console: &Console) -> Result<ExitCode, CliError> {
-    let project = args.config.load(&[])?;
-    let (domain, base) = initial_mesh(&project).map_err(|error| located(&project, &error))?;
+    let resolved = args.config.load(&[])?;
+    let (domain, base) = initial_mesh(&resolved).map_err(|error| located(&resolved, &error))?;
     let file = &args.config.config;
     let name = file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
     match args.format {
         Format::Svg => {
-            let start = study::start(&project.config, &domain, &base);
-            let start = start.map_err(|error| located(&project, &error))?;
+            let start = study::start(resolved.config(), &domain, &base);
+            let start = start.map_err(|error| located(&resolved, &error))?;
             match skeleton::picture::svg(&base, &domain, &name, &start.seams()) {
                 Ok(picture) => out!("{picture}"),
                 Err(error) => return Err(CliError::Input(format!("{}: {error}", file.display()))),
@@ -57,7 +57,8 @@ pub fn run(args: Args, _console: &Console) -> Result<ExitCode, CliError> {
 }
 
 /// The domain and its mesh, which need nothing of the structure and the search.
-fn initial_mesh(Project { config, inputs, .. }: &Project) -> Result<(Domain, BaseMesh), StudyError> {
+fn initial_mesh(resolved: &ResolvedConfig) -> Result<(Domain, BaseMesh), StudyError> {
+    let (config, inputs) = (resolved.config(), resolved.inputs());
     let surface = surface::build(&config.surface, inputs)?;
     let domain = Domain::resolve_for(&config.domain, &surface, inputs, config.pattern.grain())?;
     let base = skeleton::initial(&config.topology, &domain, inputs)?;

@@ -8,8 +8,8 @@ use crate::search::params::{SearchParams, Seeds};
 use crate::skeleton::params::InitialMesh;
 use crate::structure::model::Direction;
 use crate::structure::params::{
-    HeightParams, LoadParams, Quantity, RequirementParams, SectionParams, StructureParams, SupportNodes,
-    SupportParams, SupportPlace,
+    FactorParams, HeightParams, LoadParams, Quantity, RequirementParams, SectionParams, StructureParams,
+    SupportNodes, SupportParams, SupportPlace,
 };
 use crate::surface::params::SurfaceParams;
 
@@ -240,10 +240,22 @@ fn describe_support(support: &SupportParams) -> String {
         SupportNodes::Loop(k) => format!("nodes of boundary loop {k}"),
         SupportNodes::NodesNear(points) => format!("boundary nodes closest to {}", near(points)),
         SupportNodes::SidesNear(points) => format!("nodes of the sides closest to {}", near(points)),
+        SupportNodes::InsideNear(points) => format!("nodes inside closest to {}", near(points)),
     });
     let place = places.collect::<Vec<String>>().join(" and ");
+    let (_, springs) = support.holds();
+    let springs = Direction::ALL.into_iter().zip(springs).filter(|(_, stiffness)| *stiffness > 0.0);
+    let springs: Vec<String> = springs
+        .map(|(direction, stiffness)| {
+            let unit = if direction < Direction::Rx { "kN/m" } else { "kNm/rad" };
+            format!("{} by {} {unit}", name_of(direction), stiffness / 1e3)
+        })
+        .collect();
     let fixed: Vec<&str> = support.fixed.iter().map(|direction| name_of(*direction)).collect();
-    format!("support: {place} fixed in {}", fixed.join(", "))
+    let words = [("fixed in", fixed.join(", ")), ("held in", springs.join(", "))];
+    let words = words.into_iter().filter(|(_, list)| !list.is_empty());
+    let words: Vec<String> = words.map(|(verb, list)| format!("{verb} {list}")).collect();
+    format!("support: {place} {}", words.join(", "))
 }
 
 fn name_of(direction: Direction) -> &'static str {
@@ -258,11 +270,26 @@ fn name_of(direction: Direction) -> &'static str {
 }
 
 fn describe_load(load: &LoadParams) -> String {
+    let times = match load.factor() {
+        None => String::new(),
+        Some(FactorParams::Text(text)) => format!(", times {text}"),
+        Some(FactorParams::Table(table)) => format!(", times {}", table.expression),
+    };
     match load {
         LoadParams::Gravity { g_m_s2 } => format!("self weight of the members, g = {g_m_s2} m/s²"),
-        LoadParams::Area { down_pa } => format!("{} kN/m² downwards on the panels", down_pa / 1000.0),
-        LoadParams::Projected { down_pa } => {
-            format!("{} kN/m² downwards on their plan projection", down_pa / 1000.0)
+        LoadParams::Area { down_pa, .. } => {
+            format!("{} kN/m² downwards on the panels{times}", down_pa / 1000.0)
+        }
+        LoadParams::Projected { down_pa, .. } => {
+            format!("{} kN/m² downwards on their plan projection{times}", down_pa / 1000.0)
+        }
+        LoadParams::Pressure { pressure_pa, .. } => {
+            format!("{} kN/m² against the normals of the panels{times}", pressure_pa / 1000.0)
+        }
+        LoadParams::Temperature { kelvin } => format!("all members {kelvin:+} K"),
+        LoadParams::Point { points_m, force_n: [x, y, z] } => {
+            let points: Vec<String> = points_m.iter().map(|[x, y]| format!("({x} m, {y} m)")).collect();
+            format!("({}, {}, {}) kN near {}", x / 1e3, y / 1e3, z / 1e3, points.join(", "))
         }
     }
 }

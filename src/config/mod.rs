@@ -1,7 +1,7 @@
 //! The config: one TOML file that composes the parameters of all stages.
 //!
-//! [`load`] reads it, checks keys, types and ranges against the schema derived from the types, then what several keys
-//! say together, and fills in defaults. Every refusal names file, line and key, what was found and what is allowed.
+//! [`ResolvedConfig`] reads it, checks keys, types and ranges against the schema derived from the types, then what several
+//! keys say together, and fills in defaults. Every refusal names file, line and key, what was found and what is allowed.
 
 mod describe;
 mod error;
@@ -13,21 +13,22 @@ mod resolved;
 mod retired;
 mod rules;
 mod schema;
-pub mod seeds;
+mod seeds;
 mod source;
 
 pub use describe::{describe, warnings};
 pub use error::{ConfigError, Located, Place, Problem};
 pub use path::{KeyPath, Segment};
-pub use project::{Project, folder_of};
+pub use project::{ResolvedConfig, folder_of};
 pub use reference::reference;
-pub use resolved::{differences, hash, input_files, read_inputs, to_toml};
+pub use resolved::{differences, hash, input_files, to_toml};
 pub use retired::recorded;
 pub use schema::config_schema;
 
+use resolved::read_inputs;
+
 use crate::domain::params::DomainParams;
 use crate::geometry::params::PatternParams;
-use crate::io::Inputs;
 use crate::objectives::params::FabricationParams;
 use crate::search::params::{ObjectivesParams, SearchParams};
 use crate::skeleton::params::TopologyParams;
@@ -35,7 +36,6 @@ use crate::structure::params::StructureParams;
 use crate::surface::params::SurfaceParams;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::path::Path;
 
 /// The version of the config format that this program reads.
 pub const VERSION: u32 = 1;
@@ -99,29 +99,4 @@ fn version() -> u32 {
 
 fn plane() -> SurfaceParams {
     SurfaceParams::Plane { z_m: 0.0 }
-}
-
-/// What keeps a config from being put to use: whatever [`load`] refuses, and defaults that were not filled in, as in one that was
-/// not made by [`load`] or [`Project`]. `inputs` are the files that it names.
-///
-/// # Errors
-/// All problems found.
-pub fn check(config: &Config, inputs: &Inputs) -> Result<(), Vec<Problem>> {
-    let mut problems = resolved::problems(config);
-    if problems.is_empty() {
-        problems = rules::check(config, inputs);
-    }
-    if problems.is_empty() { Ok(()) } else { Err(problems) }
-}
-
-/// Reads a config file with `key=value` arguments laid over it, checks it, and fills in what depends on other keys.
-///
-/// Paths inside stay relative to the folder of `file`. Shapes and units are those of the parameters of each stage. Who also
-/// wants the files that it names as they were then opens a [`Project`].
-///
-/// # Errors
-/// [`ConfigError`]: the file cannot be read, is not TOML, or says something that is not allowed; then all problems
-/// found are listed.
-pub fn load(file: &Path, sets: &[String]) -> Result<Config, ConfigError> {
-    Ok(Project::open(file, sets)?.config)
 }

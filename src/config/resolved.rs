@@ -1,7 +1,6 @@
 //! A config with its defaults: written back, hashed, compared.
 
-use super::error::Problem;
-use super::{Config, KeyPath, names, schema, seeds};
+use super::{Config, KeyPath, names, seeds};
 use crate::geometry::params::{FREE_SWEEPS, RelaxKind};
 use crate::io::{Inputs, sha256};
 use crate::search::params::Initialiser;
@@ -41,26 +40,6 @@ pub(super) fn fill_in(config: &mut Config, given: &Table) {
     }
 }
 
-/// Keys, types and ranges of a config that was not read here, and defaults that nobody has filled in.
-pub(super) fn problems(config: &Config) -> Vec<Problem> {
-    let values = match Table::try_from(config) {
-        Ok(values) => values,
-        Err(error) => return vec![Problem::new(KeyPath::default(), error.to_string())],
-    };
-    let problems = schema::check(&values);
-    if !problems.is_empty() {
-        return problems;
-    }
-    let mut filled = config.clone();
-    fill_in(&mut filled, &values);
-    let missing = differences(config, &filled).into_iter();
-    missing
-        .map(|key| {
-            Problem::new(KeyPath::of(&key), "its default is not filled in: `Project` and `load` do that")
-        })
-        .collect()
-}
-
 /// Width of the section in plan, m: of a round one its largest height.
 fn section_width(structure: &StructureParams) -> f64 {
     let height = match structure.height {
@@ -73,7 +52,7 @@ fn section_width(structure: &StructureParams) -> f64 {
     }
 }
 
-/// The config as TOML, all defaults written out; [`load`](super::load) reads it as the same config.
+/// The config as TOML, all defaults written out; [`ResolvedConfig`](super::ResolvedConfig) reads it as the same config.
 pub fn to_toml(config: &Config) -> String {
     // Only types that TOML cannot hold could fail here, and a config that came from TOML has none.
     toml::to_string(config).unwrap_or_default()
@@ -92,7 +71,7 @@ pub fn input_files(config: &Config) -> Vec<PathBuf> {
 }
 
 /// Reads the files that a config names; `folder` is where relative paths start.
-pub fn read_inputs(config: &Config, folder: &Path) -> Inputs {
+pub(super) fn read_inputs(config: &Config, folder: &Path) -> Inputs {
     Inputs::read(folder, input_files(config))
 }
 

@@ -3,7 +3,7 @@
 use super::error::Problem;
 use super::path::KeyPath;
 use super::schema::suggestion;
-use super::{Config, VERSION, seeds};
+use super::{Config, VERSION};
 use crate::domain::params::{Corners, LoopParams};
 use crate::geometry::params::{Density, RelaxKind};
 use crate::io::{Inputs, ReadError};
@@ -268,7 +268,7 @@ impl Rules<'_> {
         match support.nodes().as_slice() {
             [] => {
                 let message = "missing; allowed: \"boundary\", \"corners\", \"all\", or instead loop = 0, 1, …, \
-                               nodes_near_m or sides_near_m = [[x, y], …]";
+                               nodes_near_m, sides_near_m or inside_near_m = [[x, y], …]";
                 self.refuse(key.key("at"), message);
             }
             [(first, _), (second, _), ..] => {
@@ -450,9 +450,6 @@ impl Rules<'_> {
         if tokens.min > tokens.max {
             let message = format!("found min = {} and max = {}; allowed: min ≤ max", tokens.min, tokens.max);
             self.refuse("search.tokens", message);
-        }
-        if let Err(problems) = seeds::strings(&config.search, self.inputs) {
-            self.problems.extend(problems);
         }
         for (i, region) in config.search.frozen.regions_m.iter().enumerate().filter(|(_, r)| r.len() < 3) {
             let message = format!("found {} points; allowed: a polygon of 3 or more", region.len());

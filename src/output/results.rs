@@ -12,7 +12,7 @@ use super::obstacles::nearest_misses;
 use super::polygons::Polygons;
 use super::svg::{Plan, Shade, svg};
 use super::table::{Dialect, Table};
-use crate::config::Project;
+use crate::config::ResolvedConfig;
 use crate::files::names::{self, TABLES, excel_name};
 use crate::mesh::{CanonicalMesh, Code};
 use crate::objectives::METRICS;
@@ -45,9 +45,9 @@ pub enum ResultsError {
 }
 
 /// What a resumed run must have in common with the one it goes on with: the config and the files it names.
-pub fn record(project: &Project) -> Json {
-    let mut record = serde_json::to_value(&project.config).unwrap_or_default();
-    record["input_files"] = serde_json::to_value(project.inputs.hashes()).unwrap_or_default();
+pub fn record(resolved: &ResolvedConfig) -> Json {
+    let mut record = serde_json::to_value(resolved.config()).unwrap_or_default();
+    record["input_files"] = serde_json::to_value(resolved.inputs().hashes()).unwrap_or_default();
     record
 }
 
@@ -66,7 +66,7 @@ pub struct Run<'a> {
     /// What the search was served by.
     pub study: &'a Study,
     /// The config, seed included, and its files.
-    pub project: &'a Project,
+    pub resolved: &'a ResolvedConfig,
     /// What was found.
     pub outcome: &'a Outcome,
     /// Which copies of the tables are wanted beside the canonical ones.
@@ -93,9 +93,9 @@ impl Run<'_> {
     /// # Errors
     /// [`ResultsError`].
     pub fn write_tables(&self, folder: &mut Folder) -> Result<(), ResultsError> {
-        let columns = Columns::of(&self.project.config.objectives);
+        let columns = Columns::of(&self.resolved.config().objectives);
         let Outcome { evaluated, generations: rows, .. } = self.outcome;
-        let objectives = &self.project.config.objectives;
+        let objectives = &self.resolved.config().objectives;
         let standing = Standing::of(evaluated, &self.outcome.front, objectives);
         let tables: [(&str, Table); 3] = [
             (names::PARETO, pareto(&self.front(), &standing, &columns)),
@@ -329,7 +329,9 @@ impl Developed {
             return Vec::new();
         };
         let nodes = frame.supported().map(|node| node.0 as usize);
-        nodes.map(|n| (frame.nodes()[n], frame.fixed()[n][0] || frame.fixed()[n][1])).collect()
+        let has_spring = |n: usize| frame.springs().iter().any(|s| s.node as usize == n && s.direction < 2);
+        let is_held = |n: usize| frame.fixed()[n][0] || frame.fixed()[n][1] || has_spring(n);
+        nodes.map(|n| (frame.nodes()[n], is_held(n))).collect()
     }
 
     /// The files of `designs/`.

@@ -3,7 +3,7 @@
 use super::designs::Columns;
 use super::folder::{Folder, FolderError};
 use super::manifest::{self, Counts, Host, Manifest, Status, timestamp};
-use crate::config::{self, Project};
+use crate::config::{self, ResolvedConfig};
 use crate::files::names::MANIFEST;
 use crate::search::{Ended, GenerationRow, Outcome};
 use std::time::{Duration, Instant, SystemTime};
@@ -30,9 +30,13 @@ impl Sitting {
     ///
     /// # Errors
     /// [`FolderError::Io`].
-    pub fn begin(folder: &mut Folder, project: &Project, threads: usize) -> Result<Self, FolderError> {
+    pub fn begin(
+        folder: &mut Folder,
+        resolved: &ResolvedConfig,
+        threads: usize,
+    ) -> Result<Self, FolderError> {
         let earlier = Manifest::read(folder.path());
-        let (config, now) = (&project.config, timestamp(SystemTime::now()));
+        let (config, now) = (resolved.config(), timestamp(SystemTime::now()));
         let manifest = Manifest {
             manifest_version: manifest::VERSION,
             program: manifest::PROGRAM.into(),
@@ -48,9 +52,9 @@ impl Sitting {
             counts: earlier.as_ref().map(|earlier| earlier.counts).unwrap_or_default(),
             seconds: earlier.as_ref().map_or(0.0, |earlier| earlier.seconds),
             host: Host::here(),
-            config_folder: project.folder.display().to_string(),
+            config_folder: resolved.folder().display().to_string(),
             config_sha256: config::hash(config),
-            input_files: project.inputs.hashes(),
+            input_files: resolved.inputs().hashes(),
             config: config::to_toml(config),
             files: folder.files(),
         };

@@ -1,8 +1,12 @@
 //! The `[structure]` table of the config. Defaults are the paper's gridshell.
 
 mod joints;
+mod loads;
+mod springs;
 
 pub use joints::{EndJointParams, JointParams, JointWord};
+pub use loads::{Factor, FactorParams, FactorTable, LoadParams};
+pub use springs::StiffnessParams;
 
 use super::model::Direction;
 use schemars::JsonSchema;
@@ -33,6 +37,9 @@ pub struct StructureParams {
     /// The material.
     #[serde(default)]
     pub material: MaterialParams,
+    /// How both ends of all members are joined to their nodes; what is left out is rigid.
+    #[serde(default, skip_serializing_if = "EndJointParams::is_rigid")]
+    pub joints: EndJointParams,
     /// The section, all but its height.
     #[serde(default)]
     pub section: SectionParams,
@@ -127,11 +134,28 @@ pub struct MaterialParams {
     /// Partial factor γM0.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub gamma_m0: f64,
+    /// Linear thermal expansion α, in 1/K, for loads of temperature.
+    #[serde(skip_serializing_if = "is_of_steel")]
+    pub thermal_expansion_per_k: f64,
+}
+
+/// α of steel, 1/K (EN 1993-1-1, 3.2.6).
+const STEEL: f64 = 1.2e-5;
+
+fn is_of_steel(thermal_expansion: &f64) -> bool {
+    *thermal_expansion == STEEL
 }
 
 impl Default for MaterialParams {
     fn default() -> Self {
-        Self { youngs_modulus_pa: 210e9, poisson: 0.3, density_kg_m3: 7850.0, yield_pa: 355e6, gamma_m0: 1.0 }
+        Self {
+            youngs_modulus_pa: 210e9,
+            poisson: 0.3,
+            density_kg_m3: 7850.0,
+            yield_pa: 355e6,
+            gamma_m0: 1.0,
+            thermal_expansion_per_k: STEEL,
+        }
     }
 }
 
@@ -241,10 +265,10 @@ pub struct ExcludeParams {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SupportParams {
-    /// `"boundary"`: all boundary nodes; `"corners"`: the corners of loop 0; `"all"`: every node. Or give `loop`, `nodes_near_m` or
-    /// `sides_near_m`.
+    /// `"boundary"`: all boundary nodes; `"corners"`: the corners of loop 0; `"all"`: every node. Or give `loop`, `nodes_near_m`,
+    /// `sides_near_m` or `inside_near_m`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-instead" = "loop = 0, 1, … instead of at, or nodes_near_m, or sides_near_m"))]
+    #[schemars(extend("x-instead" = "loop = 0, 1, … instead of at, or nodes_near_m, sides_near_m or inside_near_m"))]
     pub at: Option<SupportPlace>,
     /// All nodes of this boundary loop, from 0.
     #[serde(default, rename = "loop", skip_serializing_if = "Option::is_none")]
@@ -258,9 +282,17 @@ pub struct SupportParams {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("minItems" = 1))]
     pub sides_near_m: Option<Vec<[f64; 2]>>,
-    /// What is fixed: of `ux`, `uy`, `uz`, `rx`, `ry`, `rz`.
+    /// For each of these points `[x, y]`, in metres, the node inside the roof closest to it in plan: a column. A design without one
+    /// within half a target length fails.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("minItems" = 1))]
+    pub inside_near_m: Option<Vec<[f64; 2]>>,
+    /// What is fixed: of `ux`, `uy`, `uz`, `rx`, `ry`, `rz`. May be left out beside `stiffness`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub fixed: Vec<Direction>,
+    /// Springs in directions that are not fixed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffness: Option<StiffnessParams>,
 }
 
 /// Where one support rule holds: what its keys say.
@@ -274,16 +306,26 @@ pub enum SupportNodes<'a> {
     NodesNear(&'a [[f64; 2]]),
     /// The sides closest to points in plan, m.
     SidesNear(&'a [[f64; 2]]),
+    /// The nodes inside closest to points in plan, m.
+    InsideNear(&'a [[f64; 2]]),
 }
 
 impl SupportParams {
+    /// What it does in each direction: fixed, and the spring where not, N/m and Nm/rad.
+    pub fn holds(&self) -> ([bool; 6], [f64; 6]) {
+        let fixed = Direction::ALL.map(|direction| self.fixed.contains(&direction));
+        let springs = self.stiffness.unwrap_or_default().values();
+        (fixed, std::array::from_fn(|d| if fixed[d] { 0.0 } else { springs[d] }))
+    }
+
     /// What the rule's keys name, each by its key: just one in a config that was checked.
     pub fn nodes(&self) -> Vec<(&'static str, SupportNodes<'_>)> {
         let at = self.at.map(|place| ("at", SupportNodes::Place(place)));
         let label = self.boundary_loop.map(|k| ("loop", SupportNodes::Loop(k)));
         let nodes = self.nodes_near_m.as_ref().map(|p| ("nodes_near_m", SupportNodes::NodesNear(p)));
         let sides = self.sides_near_m.as_ref().map(|p| ("sides_near_m", SupportNodes::SidesNear(p)));
-        [at, label, nodes, sides].into_iter().flatten().collect()
+        let inside = self.inside_near_m.as_ref().map(|p| ("inside_near_m", SupportNodes::InsideNear(p)));
+        [at, label, nodes, sides, inside].into_iter().flatten().collect()
     }
 }
 
@@ -297,29 +339,6 @@ pub enum SupportPlace {
     Corners,
     /// Every node.
     All,
-}
-
-/// One load case.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
-pub enum LoadParams {
-    /// Self weight of the members, as member loads.
-    Gravity {
-        /// Acceleration, in m/s².
-        #[serde(default = "defaults::gravity")]
-        #[schemars(extend("minimum" = 0))]
-        g_m_s2: f64,
-    },
-    /// A load on the true area of the panels.
-    Area {
-        /// Downwards, in Pa.
-        down_pa: f64,
-    },
-    /// A load on the plan projection of the panels.
-    Projected {
-        /// Downwards, in Pa.
-        down_pa: f64,
-    },
 }
 
 /// One requirement; either `max` or `min`.
@@ -524,10 +543,6 @@ mod defaults {
         1e-6
     }
 
-    pub fn gravity() -> f64 {
-        9.81
-    }
-
     pub fn supports() -> Vec<SupportParams> {
         let support = |at, fixed: &[Direction]| SupportParams {
             at: Some(at),
@@ -542,9 +557,9 @@ mod defaults {
 
     pub fn loads() -> BTreeMap<String, LoadParams> {
         BTreeMap::from([
-            ("self_weight".into(), LoadParams::Gravity { g_m_s2: gravity() }),
-            ("glass".into(), LoadParams::Area { down_pa: 600.0 }),
-            ("snow".into(), LoadParams::Projected { down_pa: 500.0 }),
+            ("self_weight".into(), LoadParams::Gravity { g_m_s2: loads::gravity() }),
+            ("glass".into(), LoadParams::Area { down_pa: 600.0, factor: None }),
+            ("snow".into(), LoadParams::Projected { down_pa: 500.0, factor: None }),
         ])
     }
 

@@ -1,7 +1,8 @@
 //! What the `[structure]` table must satisfy beyond its types.
 
 use super::params::{
-    ElementsPerMember, HeightParams, LoadParams, SectionParams, StructureParams, SupportParams,
+    ElementsPerMember, FactorParams, HeightParams, LoadParams, SectionParams, StiffnessParams,
+    StructureParams, SupportParams,
 };
 use super::section::Section;
 
@@ -27,6 +28,7 @@ impl StructureParams {
             problems.push(("elements_per_member".into(), format!("{n} must be from 1 to 100, or \"auto\"")));
         }
         self.check_material(&mut problems);
+        self.check_joints(&mut problems);
         self.check_height_and_section(&mut problems);
         for (i, zone) in self.utilisation.exclude.iter().enumerate() {
             let key = format!("utilisation.exclude[{i}]");
@@ -54,6 +56,22 @@ impl StructureParams {
         at_least_zero(problems, "material.density_kg_m3", m.density_kg_m3);
         positive(problems, "material.yield_pa", m.yield_pa);
         positive(problems, "material.gamma_m0", m.gamma_m0);
+        if !m.thermal_expansion_per_k.is_finite() {
+            let message = format!("{} is not a finite number", m.thermal_expansion_per_k);
+            problems.push(("material.thermal_expansion_per_k".into(), message));
+        }
+    }
+
+    fn check_joints(&self, problems: &mut Problems) {
+        if let Some((key, message)) = self.joints.problem() {
+            problems.push((format!("joints.{key}"), message));
+        }
+        let turns = self.joints.joint(1).torsion;
+        if turns.is_hinge() {
+            let message = "released at both ends of a member it lets the member turn freely about itself: \
+                           give gj_per_l or nm_per_rad greater than 0, or leave it rigid";
+            problems.push(("joints.torsion".into(), message.into()));
+        }
     }
 
     fn check_height_and_section(&self, problems: &mut Problems) {
@@ -99,12 +117,16 @@ impl StructureParams {
 
     fn check_loads(&self, problems: &mut Problems) {
         for (name, load) in &self.loads {
-            let (key, value) = match *load {
-                LoadParams::Gravity { g_m_s2 } => ("g_m_s2", g_m_s2),
-                LoadParams::Area { down_pa } | LoadParams::Projected { down_pa } => ("down_pa", down_pa),
-            };
-            if !value.is_finite() {
+            if let Some((key, value)) = load.numbers().into_iter().find(|(_, value)| !value.is_finite()) {
                 problems.push((format!("loads.{name}.{key}"), format!("{value} is not a finite number")));
+            }
+            if let Some(Err(error)) = load.factor().map(FactorParams::read) {
+                problems.push((format!("loads.{name}.factor"), error.to_string()));
+            }
+            if let LoadParams::Point { points_m, .. } = load
+                && points_m.is_empty()
+            {
+                problems.push((format!("loads.{name}.points_m"), "name at least one point".into()));
             }
         }
         if self.combinations.is_empty() {
@@ -186,15 +208,18 @@ fn check_support(problems: &mut Problems, i: usize, support: &SupportParams) {
     match support.nodes().as_slice() {
         [_] => {}
         [] => {
-            let message =
-                "give at = \"boundary\", \"corners\" or \"all\", or loop = k, nodes_near_m or sides_near_m";
+            let message = "give at = \"boundary\", \"corners\" or \"all\", or loop = k, nodes_near_m, sides_near_m or inside_near_m";
             problems.push((key("at"), message.into()));
         }
         [(first, _), (second, _), ..] => {
             problems.push((key(second), format!("give either {first} or {second}, not both")));
         }
     }
-    if support.fixed.is_empty() {
-        problems.push((key("fixed"), "name at least one of ux, uy, uz, rx, ry, rz".into()));
+    if support.fixed.is_empty() && support.stiffness.is_none() {
+        let message = "name at least one of ux, uy, uz, rx, ry, rz, or give a stiffness";
+        problems.push((key("fixed"), message.into()));
+    }
+    for (name, value) in StiffnessParams::KEYS.iter().zip(support.stiffness.unwrap_or_default().values()) {
+        at_least_zero(problems, &key(&format!("stiffness.{name}")), value);
     }
 }

@@ -2,6 +2,7 @@
 
 use super::Study;
 use crate::structure::model::Direction;
+use crate::structure::params::SupportParams;
 
 /// A surface this much larger than the domain is more likely in another unit.
 const VAST: f64 = 20.0;
@@ -35,8 +36,10 @@ impl Study {
     /// Directions that no support holds.
     fn free_directions(&self) -> Option<String> {
         let supports = &self.structure.as_ref()?.supports;
-        let is_free =
-            |direction: &Direction| supports.iter().all(|support| !support.fixed.contains(direction));
+        let is_free = |direction: &Direction| {
+            let d = *direction as usize;
+            supports.iter().map(SupportParams::holds).all(|(fixed, springs)| !fixed[d] && springs[d] == 0.0)
+        };
         let free = [Direction::Ux, Direction::Uy, Direction::Uz].into_iter().filter(is_free);
         let names: Vec<String> = free.map(Direction::name).collect();
         (!names.is_empty()).then(|| {

@@ -24,7 +24,7 @@ pub enum SurfaceError {
     },
     /// An expression cannot be understood.
     #[error("surface.{0}")]
-    Expression(#[from] super::expression::ExpressionError),
+    Expression(#[from] crate::expression::ExpressionError),
     /// The mesh file cannot be read.
     #[error("surface.file: {0}")]
     File(#[from] ReadError),

@@ -1,9 +1,9 @@
 //! The roof of the British Museum's Great Court (Williams 2001, *The analytic and numerical definition of the geometry of the
 //! British Museum Great Court Roof*; docs/reference/geometry.md §4).
 
-use super::algebra::Algebra;
-use super::dual::Dual;
 use super::height::HeightFunction;
+use crate::expression::algebra::Algebra;
+use crate::expression::dual::Dual;
 use crate::simd::{Vector, with_vectors};
 use pulp::{Simd, WithSimd};
 

@@ -1,6 +1,8 @@
 //! Height surfaces z = f(x, y): a function and its gradient make a [`Surface`].
 
 use super::{Surface, SurfaceKind};
+use crate::expression::Expression;
+use crate::expression::dual::Dual;
 
 /// A function z = f(x, y) with its gradient, in metres.
 pub trait HeightFunction: Send + Sync {
@@ -67,5 +69,19 @@ impl<F: HeightFunction> Surface for HeightSurface<F> {
 
     fn extent(&self) -> String {
         self.0.extent()
+    }
+}
+
+impl HeightFunction for Expression {
+    fn z(&self, x: f64, y: f64) -> f64 {
+        self.run(&[x, y])
+    }
+
+    fn gradient(&self, x: f64, y: f64) -> [f64; 2] {
+        self.run(&Dual::variables(x, y)).slope
+    }
+
+    fn extent(&self) -> String {
+        format!("`{}` gives no finite number there", self.text())
     }
 }

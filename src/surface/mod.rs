@@ -1,11 +1,8 @@
 //! What vertices are held on (docs/reference/geometry.md §1.2): one surface a file, [`build`] makes them from the config.
 
-mod algebra;
 mod cylinder;
-mod dual;
 mod error;
 
-pub mod expression;
 mod free;
 mod great_court;
 mod height;
@@ -104,7 +101,7 @@ pub fn build(params: &SurfaceParams, inputs: &Inputs) -> Result<Arc<dyn Surface>
         SurfaceParams::GreatCourt {} => Arc::new(HeightSurface(GreatCourt)),
         SurfaceParams::Plane { z_m } => Arc::new(HeightSurface(plane::Plane::new(*z_m)?)),
         SurfaceParams::Height { expression, constants, lets } => {
-            Arc::new(HeightSurface(expression::Expression::parse(expression, constants, lets)?))
+            Arc::new(HeightSurface(crate::expression::Expression::parse(expression, constants, lets)?))
         }
         SurfaceParams::Paraboloid { center_m, half_spans_m, rise_m, base_m } => {
             let shape = Shape::Paraboloid;

@@ -1,9 +1,9 @@
 //! Whatever a file holds, reading it gives a mesh or a message, never a panic: OBJ, COMPAS JSON, height expressions.
 
+use quadrille::expression::Expression;
 use quadrille::io::{compas, obj};
 use quadrille::random::{self, Rng};
 use quadrille::surface::HeightFunction as _;
-use quadrille::surface::expression::Expression;
 use std::collections::BTreeMap;
 
 /// A text of random pieces.

@@ -1,7 +1,7 @@
 //! Limits of a pattern that can be built (docs/reference/geometry.md §2.6): edges, every corner of every panel, valences, vertices at one
 //! place.
 
-use quadrille::config;
+use quadrille::config::ResolvedConfig;
 use quadrille::domain::{Domain, DomainParams};
 use quadrille::geometry::check::check;
 use quadrille::geometry::dense::Edges;
@@ -150,8 +150,8 @@ fn two_boundary_vertices_at_one_place_are_refused() {
 fn study(name: &str, sets: &[&str]) -> Study {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/data/patterns/{name}.toml"));
     let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
-    let config = config::load(&file, &sets).unwrap();
-    Study::new(&config, config::folder_of(&file)).unwrap()
+    let config = ResolvedConfig::open(&file, &sets).unwrap();
+    Study::of(&config).unwrap()
 }
 
 fn initial(study: &Study) -> Design {

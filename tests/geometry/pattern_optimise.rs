@@ -1,7 +1,7 @@
 //! Patterns that can be built (docs/reference/geometry.md §6): small domains that a smoothing stage fails on, turned, mirrored, moved and
 //! scaled.
 
-use quadrille::config;
+use quadrille::config::ResolvedConfig;
 use quadrille::study::{Design, Effort, Study};
 use std::fmt::Write;
 
@@ -44,8 +44,8 @@ fn study(text: &str) -> Study {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("case.toml");
     std::fs::write(&file, text).unwrap();
-    let config = config::load(&file, &[]).unwrap();
-    Study::new(&config, folder.path()).unwrap()
+    let config = ResolvedConfig::open(&file, &[]).unwrap();
+    Study::of(&config).unwrap()
 }
 
 fn design(study: &Study, string: &str) -> Design {
@@ -191,8 +191,8 @@ fn a_mesh_surface_is_optimised_too() {
                 [[domain.loop]]\nkind = \"circle\"\ncenter_m = [10, 10]\nradius_m = 4\n\
                 [surface]\nkind = \"mesh\"\nfile = \"vault.obj\"\n[pattern]\npanels = 400\n";
     std::fs::write(&file, text).unwrap();
-    let config = config::load(&file, &[]).unwrap();
-    let study = Study::new(&config, folder.path()).unwrap();
+    let config = ResolvedConfig::open(&file, &[]).unwrap();
+    let study = Study::of(&config).unwrap();
     for string in ["", "APPTPPPTPPTAPTP", "APPTTPTPTAPPATTA*TP"] {
         let design = design(&study, string);
         assert!(is_good(&design), "{string}: {:?}", design.limits);

@@ -1,6 +1,6 @@
 //! Initial meshes from the medial axis: the domains named in the specification, and odd ones.
 
-use quadrille::config;
+use quadrille::config::ResolvedConfig;
 use quadrille::domain::params::{CornerRule, Corners};
 use quadrille::domain::{Domain, DomainParams, LoopParams};
 use quadrille::io::Inputs;
@@ -16,10 +16,9 @@ fn data(name: &str) -> PathBuf {
 }
 
 fn domain(name: &str) -> Domain {
-    let config = config::load(&data(name), &[]).unwrap();
-    let inputs = config::read_inputs(&config, config::folder_of(&data(name)));
-    let surface = surface::build(&config.surface, &inputs).unwrap();
-    Domain::resolve(&config.domain, &surface, &inputs).unwrap()
+    let config = ResolvedConfig::open(&data(name), &[]).unwrap();
+    let surface = surface::build(&config.config().surface, config.inputs()).unwrap();
+    Domain::resolve(&config.config().domain, &surface, config.inputs()).unwrap()
 }
 
 fn mesh(name: &str) -> (Domain, BaseMesh, InitialMesh) {

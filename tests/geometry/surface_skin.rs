@@ -1,6 +1,6 @@
 //! Meshes as surfaces: the upper skin counts, however faces are wound, ordered and layered (issue 15).
 
-use quadrille::config;
+use quadrille::config::ResolvedConfig;
 use quadrille::random::{below, stream, unit};
 use quadrille::study::{Effort, Study};
 use quadrille::surface::{MeshSurface, Surface};
@@ -11,8 +11,8 @@ type Mesh = (Vec<[f64; 3]>, Vec<Vec<u32>>);
 type Height = Box<dyn Fn(f64, f64) -> f64>;
 
 fn study(file: &Path, sets: &[String]) -> Study {
-    let config = config::load(file, sets).unwrap();
-    Study::new(&config, config::folder_of(file)).unwrap()
+    let config = ResolvedConfig::open(file, sets).unwrap();
+    Study::of(&config).unwrap()
 }
 
 /// Positions of the pattern of a string, and whether it keeps all limits.

@@ -1,6 +1,6 @@
 //! A design whose topology has a symmetry of the domain has a pattern with it, to the last bit (docs/symmetry.md).
 
-use quadrille::config;
+use quadrille::config::{Config, ResolvedConfig};
 use quadrille::geometry::images::Image;
 use quadrille::geometry::{Pattern, shape};
 use quadrille::grammar::random::{self, Shares};
@@ -16,12 +16,12 @@ const COURT: &str = "[[domain.loop]]\nkind = \"polyline\"\n\
 const SQUARE: &str = "[[domain.loop]]\nkind = \"polyline\"\npoints_m = [[-10, -10], [10, -10], [10, 10], [-10, 10]]\n\
     [pattern]\npanels = 200\n";
 
-fn study_of(text: &str, topology: &str) -> (Study, config::Config) {
+fn study_of(text: &str, topology: &str) -> (Study, Config) {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("case.toml");
     std::fs::write(&file, format!("version = 1\n{text}[topology]\n{topology}")).unwrap();
-    let config = config::load(&file, &[]).unwrap_or_else(|error| panic!("{error}"));
-    (Study::new(&config, folder.path()).unwrap_or_else(|error| panic!("{error}")), config)
+    let config = ResolvedConfig::open(&file, &[]).unwrap_or_else(|error| panic!("{error}"));
+    (Study::of(&config).unwrap_or_else(|error| panic!("{error}")), config.config().clone())
 }
 
 /// Every vertex has an image, equal to the last bit; every member too.

@@ -1,6 +1,6 @@
 //! Strings on halves and quarters: what they unfold to is a valid symmetric mesh of the domain's topology (docs/symmetry.md).
 
-use quadrille::config;
+use quadrille::config::ResolvedConfig;
 use quadrille::geometry::images::Image;
 use quadrille::grammar::random::{self, Shares};
 use quadrille::grammar::{Effect, Tokens, decode};
@@ -14,8 +14,8 @@ fn study(text: &str) -> Study {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("case.toml");
     std::fs::write(&file, format!("version = 1\n{text}")).unwrap();
-    let config = config::load(&file, &[]).unwrap_or_else(|error| panic!("{error}"));
-    Study::new(&config, folder.path()).unwrap_or_else(|error| panic!("{error}"))
+    let config = ResolvedConfig::open(&file, &[]).unwrap_or_else(|error| panic!("{error}"));
+    Study::of(&config).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn court(symmetry: &str) -> Study {
@@ -179,8 +179,8 @@ fn meshes_that_are_not_symmetric_are_refused_with_the_place() {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("case.toml");
         std::fs::write(&file, format!("version = 1\n{text}")).unwrap();
-        let config = config::load(&file, &[]).unwrap_or_else(|error| panic!("{error}"));
-        Study::new(&config, folder.path()).err().unwrap().to_string()
+        let config = ResolvedConfig::open(&file, &[]).unwrap_or_else(|error| panic!("{error}"));
+        Study::of(&config).err().unwrap().to_string()
     };
     let square = "[[domain.loop]]\nkind = \"polyline\"\npoints_m = [[0, 0], [20, 0], [20, 20], [0, 20]]\n[surface]\nkind = \"plane\"\n[topology]\n";
     let inline = |vertices: &str, faces: &str| {

@@ -1,13 +1,17 @@
 //! The shipped configs load, and `great_court.toml` is the one that the documentation shows.
 
-use quadrille::config::{self, Config, ConfigError, Project};
+use quadrille::config::{self, Config, ConfigError, ResolvedConfig};
 use quadrille::geometry::params::RelaxKind;
-use quadrille::study::Study;
+use quadrille::io::Inputs;
 use std::path::Path;
 
 fn load(name: &str) -> Config {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("configs").join(name);
-    config::load(&path, &[]).unwrap_or_else(|error| panic!("{error}"))
+    opened(&path, &[])
+}
+
+fn opened(path: &Path, sets: &[String]) -> Config {
+    ResolvedConfig::open(path, sets).unwrap_or_else(|error| panic!("{error}")).config().clone()
 }
 
 /// The config of the documentation, as published.
@@ -18,7 +22,7 @@ fn great_court_is_the_documented_one() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("documented.toml");
     std::fs::write(&file, DOCUMENTED).unwrap();
-    let documented = config::load(&file, &[]).unwrap();
+    let documented = opened(&file, &[]);
     let differing = config::differences(&load("great_court.toml"), &documented);
     let filled_in = ["objectives.ideal", "objectives.reference"];
     let others: Vec<_> = differing.iter().filter(|key| !filled_in.contains(&key.as_str())).collect();
@@ -50,7 +54,7 @@ fn every_shipped_config_loads_and_survives_being_written_back() {
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         if path.extension().is_some_and(|e| e == "toml") {
-            let config = config::load(&path, &[]).unwrap_or_else(|error| panic!("{error}"));
+            let config = opened(&path, &[]);
 
             let back: Config = toml::from_str(&config::to_toml(&config)).unwrap();
             assert_eq!(back, config, "{}", path.display());
@@ -72,7 +76,7 @@ fn differences_name_keys() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("configs/dome.toml");
     let sets =
         ["run.threads=2", "search.tokens.max=9", "domain.loop[0].points_m[0][0]=-11"].map(String::from);
-    let changed = config::load(&path, &sets).unwrap();
+    let changed = opened(&path, &sets);
     assert_eq!(
         config::differences(&load("dome.toml"), &changed),
         ["domain.loop", "run.threads", "search.tokens.max"]
@@ -90,7 +94,7 @@ fn a_free_surface_has_its_own_defaults() {
              [surface]\nkind = \"free\"\n{more}"
         );
         std::fs::write(&file, text).unwrap();
-        let relax = config::load(&file, &[]).unwrap().pattern.relax;
+        let relax = opened(&file, &[]).pattern.relax;
         (relax.kind, relax.sweeps, relax.damping)
     };
     assert_eq!(relax(""), (RelaxKind::Uniform, 500, 0.5));
@@ -108,12 +112,12 @@ fn a_file_text_and_values_give_one_config() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("room.toml");
     std::fs::write(&file, ROOM).unwrap();
-    let opened = Project::open(&file, &[]).unwrap();
-    let parsed = Project::parse(ROOM, &file, &[]).unwrap();
-    let made = Project::of(ROOM.parse().unwrap(), &file).unwrap();
-    assert_eq!(opened.config.run.name.as_deref(), Some("room"));
+    let opened = ResolvedConfig::open(&file, &[]).unwrap();
+    let parsed = ResolvedConfig::parse(ROOM, &file, &[]).unwrap();
+    let made = ResolvedConfig::of(ROOM.parse().unwrap(), &file).unwrap();
+    assert_eq!(opened.config().run.name.as_deref(), Some("room"));
     for other in [parsed, made] {
-        assert_eq!((&other.config, &other.folder), (&opened.config, &opened.folder));
+        assert_eq!((other.config(), other.folder()), (opened.config(), opened.folder()));
     }
 }
 
@@ -121,31 +125,25 @@ fn a_file_text_and_values_give_one_config() {
 fn text_and_values_are_refused_as_a_file_is() {
     let wrong = format!("{ROOM}search.population = 0\n");
     let told = |error: Option<ConfigError>| error.map(|error| error.to_string()).unwrap_or_default();
-    let by_text = told(Project::parse(&wrong, Path::new("room.toml"), &[]).err());
+    let by_text = told(ResolvedConfig::parse(&wrong, Path::new("room.toml"), &[]).err());
     assert!(by_text.starts_with("room.toml:4: search.population: found 0"), "{by_text}");
-    let by_values = told(Project::of(wrong.parse().unwrap(), Path::new("room.toml")).err());
+    let by_values = told(ResolvedConfig::of(wrong.parse().unwrap(), Path::new("room.toml")).err());
     assert!(by_values.starts_with("room.toml: search.population: found 0"), "{by_values}");
 }
 
 #[test]
-fn no_study_is_made_of_a_config_that_nobody_checked() {
-    let refused = |config: &Config| {
-        let error = Study::new(config, Path::new(".")).err();
-        error.map(|error| format!("{}: {error}", error.key(config))).unwrap_or_default()
+fn a_recorded_config_is_checked_as_one_that_was_written() {
+    let again = |config: &Config| {
+        let resolved = ResolvedConfig::again(config, Inputs::default(), Path::new("results/room"));
+        resolved.err().map(|error| error.to_string()).unwrap_or_default()
     };
-    // Its designs were all feasible, with no objective at all.
-    let unchecked: Config = toml::from_str(ROOM).unwrap();
-    let told = refused(&unchecked);
-    assert!(told.starts_with("objectives.minimise: ") && told.contains("not filled in"), "{told}");
-    let checked = Project::parse(ROOM, Path::new("room.toml"), &[]).unwrap().config;
-    assert_eq!(refused(&checked), "");
-    let mut changed = checked.clone();
-    changed.objectives.minimise.clear();
-    assert!(refused(&changed).contains("objectives.minimise"), "{}", refused(&changed));
+    let checked = ResolvedConfig::parse(ROOM, Path::new("room.toml"), &[]).unwrap().config().clone();
+    assert_eq!(again(&checked), "");
     let mut changed = checked.clone();
     changed.objectives.minimise = vec!["beauty".into()];
-    assert!(refused(&changed).contains("beauty"), "{}", refused(&changed));
+    let told = again(&changed);
+    assert!(told.contains("manifest.json: objectives.minimise[0]: found no objective \"beauty\""), "{told}");
     let mut changed = checked;
     changed.pattern.max_faces = 0;
-    assert!(refused(&changed).contains("pattern.max_faces: found 0"), "{}", refused(&changed));
+    assert!(again(&changed).contains("pattern.max_faces: found 0"), "{}", again(&changed));
 }

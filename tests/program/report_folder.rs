@@ -1,7 +1,7 @@
 //! `quadrille report DIR`: the page shows what the files of a results folder say, and bad files are named.
 
 use assert_cmd::Command;
-use quadrille::config::{self, Project};
+use quadrille::config::{self, ResolvedConfig};
 use quadrille::output::report::{Mark, ReportData, read};
 use std::fs;
 use std::path::Path;
@@ -31,7 +31,8 @@ fn manifest() -> String {
     let config = config.replace("ideal = [0.0, 0.0, 0.0]", "ideal = [0.0, 0.0]");
     let config = config.replace("reference = [0.15, 0.02, 1.5]", "reference = [1e4, 1.5]");
     // Manifests record what a config means, all defaults in it.
-    let config = config::to_toml(&Project::parse(&config, "ci.toml".as_ref(), &[]).expect("a config").config);
+    let config =
+        config::to_toml(&ResolvedConfig::parse(&config, "ci.toml".as_ref(), &[]).expect("a config").config());
     serde_json::json!({
         "manifest_version": 1, "program": "quadrille", "program_version": "0.1.0", "name": "tripod",
         "objectives": ["mass_kg", "edge_spread_m"], "seed": u64::MAX, "threads": 2, "status": "finished",

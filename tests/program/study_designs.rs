@@ -1,6 +1,6 @@
 //! docs/reference/geometry.md §0 and §2 on the Great Court: a design is a function of its code, and lies where it must.
 
-use quadrille::config;
+use quadrille::config::ResolvedConfig;
 use quadrille::random::stream;
 use quadrille::search::Problem;
 use quadrille::structure::gridshell::GridshellModel;
@@ -15,8 +15,8 @@ fn great_court() -> Study {
 fn great_court_of(panels: usize) -> Study {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("configs/great_court.toml");
     let sets = [format!("pattern.panels={panels}"), "search.tokens.max=12".to_owned()];
-    let config = config::load(&file, &sets).unwrap();
-    Study::new(&config, config::folder_of(&file)).unwrap()
+    let config = ResolvedConfig::open(&file, &sets).unwrap();
+    Study::of(&config).unwrap()
 }
 
 fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
@@ -81,8 +81,8 @@ fn boundary_on_its_curves_inside_on_the_surface_corners_sharp() {
 #[test]
 fn a_smooth_polyline_is_followed() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/skeleton/blob.toml");
-    let config = config::load(&file, &["pattern.panels=400".to_owned()]).unwrap();
-    let study = Study::new(&config, config::folder_of(&file)).unwrap();
+    let config = ResolvedConfig::open(&file, &["pattern.panels=400".to_owned()]).unwrap();
+    let study = Study::of(&config).unwrap();
     let design = study.develop(study.topology(&"".parse().unwrap()), Effort::Pattern).unwrap();
     let vertices = &design.pattern.loops[0];
     let at = |i: usize| design.pattern.positions[vertices[i % vertices.len()] as usize];
@@ -134,8 +134,8 @@ kind = "plane"
 "#
         );
         std::fs::write(&file, text).unwrap();
-        let config = config::load(&file, &[]).unwrap();
-        Study::new(&config, folder.path()).map(|_| ()).map_err(|error| error.to_string())
+        let config = ResolvedConfig::open(&file, &[]).unwrap();
+        Study::of(&config).map(|_| ()).map_err(|error| error.to_string())
     };
     let on =
         |label: usize, fixed: &str| format!("[[structure.support]]\nloop = {label}\nfixed = [{fixed}]\n");
@@ -182,16 +182,16 @@ fixed = ["ux", "uy", "uz"]
 "#
         );
         std::fs::write(&file, text).unwrap();
-        config::load(&file, &[])
+        ResolvedConfig::open(&file, &[])
     };
     let study = |support: &str| {
         let config = write(support).map_err(|error| error.to_string())?;
-        Study::new(&config, folder.path()).map_err(|error| error.to_string())
+        Study::of(&config).map_err(|error| error.to_string())
     };
     let held = |support: &str| {
         let study = study(support).unwrap();
         let design = study.develop(study.topology(&"".parse().unwrap()), Effort::Pattern).unwrap();
-        let params = write(support).unwrap().structure.unwrap();
+        let params = write(support).unwrap().config().structure.clone().unwrap();
         let model = GridshellModel::new(&design.pattern, &params, 0.45).unwrap();
         let at = |node: quadrille::structure::model::NodeId| design.pattern.positions[node.0 as usize];
         let held = model.frame.supported().map(|node| [at(node)[0], at(node)[1]]);
@@ -231,8 +231,8 @@ fixed = ["ux", "uy", "uz"]
 #[test]
 fn between_several_holes_panels_are_not_crowded() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/pattern_study/three_holes.toml");
-    let config = config::load(&file, &[]).unwrap();
-    let study = Study::new(&config, config::folder_of(&file)).unwrap();
+    let config = ResolvedConfig::open(&file, &[]).unwrap();
+    let study = Study::of(&config).unwrap();
     let design = study.develop(study.topology(&"".parse().unwrap()), Effort::Pattern).unwrap();
     let excess: Vec<_> = design.limits.iter().filter(|limit| limit.excess > 0.0).collect();
     assert!(excess.is_empty(), "{excess:?}");
@@ -258,7 +258,7 @@ fn corners_nobody_took_find_vertices_however_many() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("corners.toml");
     std::fs::write(&file, text).unwrap();
-    let study = Study::new(&config::load(&file, &[]).unwrap(), folder.path()).unwrap();
+    let study = Study::of(&ResolvedConfig::open(&file, &[]).unwrap()).unwrap();
     let deletions = "DPPDDTDDPDTDTDDDDDTDDPDPTTDDDPTTDDTDDTTDPDTTTTDDTDPTDTDDPTPD".parse().unwrap();
     let topology = study.topology(&deletions);
     assert_eq!(topology.faces.len(), 3);

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use quadrille::config;
+use quadrille::config::ResolvedConfig;
 use quadrille::output::designs::id;
 use quadrille::random::stream;
 use quadrille::search::{Problem, RuleOperator, Steps};
@@ -11,7 +11,7 @@ use quadrille::study::Study;
 fn study(config: &str, sets: &[&str]) -> Study {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("configs");
     let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
-    Study::new(&config::load(&folder.join(config), &sets).unwrap(), &folder).unwrap()
+    Study::of(&ResolvedConfig::open(&folder.join(config), &sets).unwrap()).unwrap()
 }
 
 const HALF: &str = "topology.symmetry=[\"mirror-x\"]";

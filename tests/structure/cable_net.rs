@@ -1,7 +1,7 @@
 //! The cable net of the paper's Figures 20 and 21: five designs between a rectangle and two circles (docs/reference/geometry.md §5).
 
 use assert_cmd::Command;
-use quadrille::config;
+use quadrille::config::ResolvedConfig;
 use quadrille::geometry::deviation::{mean_edge, of_pairs};
 use quadrille::geometry::{Panel, Pattern, develop};
 use quadrille::grammar::Tokens;
@@ -19,10 +19,11 @@ fn strings() -> Vec<Tokens> {
 
 fn nets() -> (Study, Vec<Pattern>) {
     let file = configs().join("cable_net.toml");
-    let config = config::load(&file, &[]).unwrap();
-    let study = Study::new(&config, config::folder_of(&file)).unwrap();
+    let config = ResolvedConfig::open(&file, &[]).unwrap();
+    let study = Study::of(&config).unwrap();
     let net = |tokens: &Tokens| {
-        develop(&study.topology(tokens), &study.domain, study.surface.as_ref(), &config.pattern).unwrap()
+        develop(&study.topology(tokens), &study.domain, study.surface.as_ref(), &config.config().pattern)
+            .unwrap()
     };
     let nets = strings().iter().map(net).collect();
     (study, nets)

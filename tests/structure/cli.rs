@@ -179,3 +179,108 @@ fn help_tells_the_format() {
         assert!(out.contains(key), "{key} is not in\n{out}");
     }
 }
+
+/// A portal with all that the format has beside rigid beams of one section.
+fn everything() -> Value {
+    json!({
+        "material": {"E": 210e9, "G": 80.77e9, "density": 7850, "fy": 355e6, "thermal_expansion": 1.2e-5},
+        "sections": [
+            {"kind": "box", "width": 0.1, "height": 0.18, "thickness": 0.006},
+            {"kind": "round", "diameter": 0.03},
+        ],
+        "nodes": [[0, 0, 0], [0, 0, 3], [4, 0, 3], [4, 0, 0]],
+        "members": [
+            {"start": 0, "end": 1, "up": [1, 0, 0], "section": 0, "end_release": {"bending_y": {"ei_per_l": 8}}},
+            {"start": 1, "end": 2, "up": [0, 0, 1], "section": 0},
+            {"start": 2, "end": 3, "up": [1, 0, 0], "section": 0,
+             "start_release": {"bending_y": "hinge", "bending_z": {"nm_per_rad": 1e6}, "torsion": {"gj_per_l": 3}}},
+            {"start": 0, "end": 2, "section": 1, "kind": "truss"},
+        ],
+        "supports": [
+            {"node": 0, "fixed": [true, true, true, true, true, true], "displacement": [0, 0, -0.004, 0, 0, 0]},
+            {"node": 3, "fixed": [false, true, true, true, false, true], "stiffness": [2e6, 0, 0, 0, 1e5, 0]},
+        ],
+        "loads": {
+            "nodal": [{"node": 2, "force": [1000, 0, -2000]}],
+            "pressure": [{"member": 1, "force_per_length": 500}],
+            "temperature": [{"kelvin": 20}, {"member": 3, "kelvin": -10}],
+            "gravity": 9.81,
+        },
+        "analysis": {"order": 2, "buckling_modes": 1},
+    })
+}
+
+fn answered(model: &Value) -> (i32, Value, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("model.json");
+    std::fs::write(&path, model.to_string()).unwrap();
+    let (code, out, err) = frame(&[path.to_str().unwrap(), "--format", "json"]);
+    (code, serde_json::from_str(&out).unwrap(), err)
+}
+
+#[test]
+fn joints_springs_settlements_and_temperature_in_a_file() {
+    let (code, answer, err) = answered(&everything());
+    assert_eq!((code, err.as_str()), (0, ""));
+    let reactions = answer["reactions"].as_array().unwrap();
+    // Loads on nodes 1 kN and −2 kN, 0.5 kN/m on 4 m, weights by hand.
+    let [box_area, bar_area] = [0.1 * 0.18 - 0.088 * 0.168, std::f64::consts::PI * 0.03 * 0.03 / 4.0];
+    let weight = 9.81 * 7850.0 * (box_area * 10.0 + bar_area * 5.0);
+    let sum = |d: usize| reactions.iter().filter_map(|r| r["r"][d].as_f64()).sum::<f64>();
+    assert!((sum(0) + 1000.0).abs() < 1e-5 && (sum(2) - 4000.0 - weight).abs() < 1e-5, "{reactions:?}");
+    assert_eq!(answer["displacements"][0]["u"][2], json!(-0.004));
+    let spring = &reactions[1]["r"];
+    let moved = answer["displacements"][3]["u"][0].as_f64().unwrap();
+    assert!((spring[0].as_f64().unwrap() + 2e6 * moved).abs() < 1e-6, "the spring pushes back");
+    assert!(answer["joint_rotations"].as_array().unwrap().len() == 2, "{}", answer["joint_rotations"]);
+    // The hinge takes no moment.
+    let ends = answer["member_forces"].as_array().unwrap();
+    let at = |member: u64, end: &str| {
+        ends.iter().find(|f| f["member"] == json!(member) && f["end"] == json!(end)).unwrap()
+    };
+    assert!(at(2, "start")["My"].as_f64().unwrap().abs() < 1e-6);
+    assert!(at(3, "start")["My"].as_f64().unwrap() == 0.0 && at(3, "start")["N"].as_f64().unwrap() != 0.0);
+}
+
+#[test]
+fn what_the_new_keys_may_not_say() {
+    type Change = fn(&mut Value);
+    let wrong: [(Change, &str); 14] = [
+        (|m| m["section"] = json!({"kind": "round", "diameter": 0.1}), "give either `section`"),
+        (|m| m["sections"] = json!([]), "give either `section`"),
+        (|m| m["sections"][1]["diameter"] = json!(-1), "sections[1]: section diameter = -1"),
+        (|m| m["members"][1]["section"] = json!(2), "members[1].section = 2"),
+        (|m| m["members"][1]["section"] = Value::Null, "members[1]: missing key `section`"),
+        (|m| m["members"][1]["up"] = Value::Null, "members[1]: missing key `up`"),
+        (
+            |m| m["members"][3]["start_release"] = json!({"torsion": "hinge"}),
+            "members[3].start_release: a truss",
+        ),
+        (|m| m["members"][0]["end_release"] = json!({"bending_x": "hinge"}), "did you mean `bending_"),
+        (|m| m["members"][0]["end_release"] = json!({"bending_y": "hinged"}), "\"rigid\", \"hinge\""),
+        (
+            |m| m["members"][0]["end_release"] = json!({"bending_y": {"ei_per_l": -8}}),
+            "end_release.bending_y: ei_per_l = -8",
+        ),
+        (
+            |m| {
+                m["members"][0]["end_release"] = json!({"torsion": "hinge"});
+                m["members"][0]["start_release"] = json!({"torsion": "hinge"});
+            },
+            "members[0]: torsion is released at both ends",
+        ),
+        (|m| m["supports"][1]["stiffness"][0] = json!(-2), "supports[1].stiffness[0]: -2 must be 0 or more"),
+        (
+            |m| m["supports"][1]["displacement"] = json!([0.1, 0, 0, 0, 0, 0]),
+            "node 3: a displacement is prescribed in Ux",
+        ),
+        (|m| m["loads"]["temperature"][1]["member"] = json!(9), "loads.temperature"),
+    ];
+    for (change, expected) in wrong {
+        let mut model = everything();
+        change(&mut model);
+        let (code, answer, err) = answered(&model);
+        assert_eq!((code, &answer["error"]), (2, &json!("refused")), "{expected}: {err}");
+        assert!(answer["message"].as_str().unwrap().contains(expected), "{expected:?} is not in {answer}");
+    }
+}

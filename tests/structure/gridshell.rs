@@ -108,7 +108,7 @@ fn a_roof_without_horizontal_support_is_a_mechanism() {
 #[test]
 fn a_roof_past_its_critical_load_is_unstable_and_first_order_says_so_by_its_factor() {
     let mut params = at_height(0.05);
-    params.loads.insert("snow".into(), LoadParams::Projected { down_pa: 50_000.0 });
+    params.loads.insert("snow".into(), LoadParams::Projected { down_pa: 50_000.0, factor: None });
     let pattern = dome(8, 40.0, 1.0);
     assert!(matches!(analyse(&pattern, &params), Err(AnalysisError::Unstable { .. })));
     params.order = 1;

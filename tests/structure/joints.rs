@@ -365,9 +365,16 @@ fn pressure_acts_against_the_height_of_the_member() {
     close(found.displacements[1][2], -0.6 * across, 1e-9, "z");
 }
 
+/// A tower under a twentieth of its loads, so that it stands with hinges too.
+fn lightly_loaded(seed: u32) -> FrameParts {
+    let mut model = random_tower(seed);
+    model.load_cases[0].nodal.iter_mut().for_each(|load| load.load = load.load.map(|f| 0.05 * f));
+    model
+}
+
 /// What a random model has of all that there is.
 fn random_frame(seed: u32) -> FrameParts {
-    let mut model = random_tower(seed);
+    let mut model = lightly_loaded(seed);
     let rng = &mut random::stream(77, 0, seed);
     let count = model.members.len() as u32;
     let mut joint = |is_torsion: bool| match random::below(rng, if is_torsion { 3 } else { 5 }) {
@@ -399,7 +406,7 @@ fn random_frame(seed: u32) -> FrameParts {
     let case = &mut model.load_cases[0];
     case.uniform = (0..count)
         .map(|member| {
-            let force_per_length = std::array::from_fn(|_| 2e3 * (random::unit(rng) - 0.5));
+            let force_per_length = std::array::from_fn(|_| 2e2 * (random::unit(rng) - 0.5));
             UniformLoad { member, force_per_length }
         })
         .collect();
@@ -496,7 +503,7 @@ fn limits_of_the_springs() {
         for (spring, limit) in [(Joint::Relative(1e13), Joint::Rigid), (Joint::Relative(1e-13), Joint::HINGE)]
         {
             let of = |joint: Joint| {
-                let mut model = random_tower(seed);
+                let mut model = lightly_loaded(seed);
                 let end = EndJoint { torsion: Joint::Rigid, bending_y: joint, bending_z: joint };
                 model.members.iter_mut().step_by(3).for_each(|m| m.kind = MemberKind::Beam([end; 2]));
                 solve(&model, Order::Second, 2)
@@ -556,8 +563,8 @@ fn a_node_that_nothing_turns_is_a_mechanism() {
     let Err(FrameError::Singular(motion)) = &found else { panic!("{found:?}") };
     assert_eq!(motion.node.0, 1, "{motion:?}");
     // Held by a spring, it is none.
-    model.members[1].kind = MemberKind::RIGID;
-    model.members[0].kind = MemberKind::Beam([bending(Joint::HINGE); 2]);
+    let stiffness = [0.0, 0.0, 0.0, 0.0, 1e3, 0.0];
+    model.supports.push(Support { node: 1, fixed: [false; 6], stiffness });
     assert!(try_solve(&model, Order::First, 0).is_ok());
 }
 

@@ -1,6 +1,7 @@
 //! The frame solver and the gridshell model made of patterns.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+mod actions;
 mod cable_net;
 mod cases;
 mod cli;

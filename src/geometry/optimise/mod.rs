@@ -420,7 +420,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("case.toml");
         std::fs::write(&file, format!("version = 1\n{text}")).unwrap();
-        Study::new(&crate::config::load(&file, &[]).unwrap(), folder.path()).unwrap()
+        Study::of(&crate::config::ResolvedConfig::open(&file, &[]).unwrap()).unwrap()
     }
 
     /// The slope that the gradient gives along a direction against differences of the energy.

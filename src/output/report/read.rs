@@ -4,6 +4,7 @@ use super::choose::worth_a_mesh;
 use super::data::{Design, Generation, Metric, Obstacle, ReportData, Run, Sample, Spread};
 use super::families::{HANDFUL, families};
 use super::{measure, shape};
+use crate::config::ResolvedConfig;
 use crate::files::names::DESIGNS;
 use crate::io::Inputs;
 use crate::mesh::QuadMesh;
@@ -35,15 +36,15 @@ const BYTES_PER_PANEL: usize = 28;
 pub fn read(folder: &Path) -> Result<ReportData, LoadError> {
     let loaded = look(folder)?;
     let inputs = inputs::again(&loaded.manifest, &loaded.config, None).ok();
-    of(folder, loaded, inputs.as_ref())
+    of(folder, loaded, inputs)
 }
 
 /// As [`read`], from a folder that was read already; designs are grouped where its inputs are there as they were.
 ///
 /// # Errors
 /// As [`read`].
-pub fn of(folder: &Path, loaded: Loaded, inputs: Option<&Inputs>) -> Result<ReportData, LoadError> {
-    let shown = Shown::of(&loaded, inputs);
+pub fn of(folder: &Path, loaded: Loaded, inputs: Option<Inputs>) -> Result<ReportData, LoadError> {
+    let shown = Shown::of(folder, &loaded, inputs);
     let Loaded { manifest, evaluated, front, generations, is_unfinished, .. } = loaded;
     let shapes = folder.join(DESIGNS);
     let mut rows: Vec<Design> =
@@ -132,7 +133,7 @@ struct Shown {
 }
 
 impl Shown {
-    fn of(loaded: &Loaded, inputs: Option<&Inputs>) -> Self {
+    fn of(folder: &Path, loaded: &Loaded, inputs: Option<Inputs>) -> Self {
         let Loaded { config, evaluated, front, naming, .. } = loaded;
         let place = |name: &String| METRICS.iter().position(|metric| metric.name == name);
         let mut places: Vec<usize> = config.objectives.names().filter_map(place).collect();
@@ -146,7 +147,8 @@ impl Shown {
             minimised: config.objectives.minimise.len(),
             naming: *naming,
             standing: Standing::of(evaluated, front, &config.objectives),
-            study: inputs.and_then(|inputs| Study::of(config, inputs).ok()),
+            study: inputs
+                .and_then(|inputs| Study::of(&ResolvedConfig::again(config, inputs, folder).ok()?).ok()),
         }
     }
 

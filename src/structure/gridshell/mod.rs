@@ -6,6 +6,7 @@
 //! written does not matter, and which combination governs is told with the value ([`Governing`]).
 
 mod evaluate;
+mod loads;
 mod metrics;
 mod model;
 mod panels;
@@ -15,6 +16,7 @@ mod supports;
 pub use evaluate::CombinationResult;
 pub use metrics::Metrics;
 pub use model::GridshellModel;
+pub use supports::FoundNode;
 
 use super::mechanism::FreeMotion;
 use super::model::ModelError;
@@ -190,6 +192,22 @@ pub enum AnalysisError {
         index: usize,
         /// How many there are.
         loops: usize,
+    },
+    /// No node for a column.
+    #[error(
+        "structure.{key}: no node inside the pattern within {limit:.3} m (half a target length) of ({}, {}); the nearest is \
+         {distance:.3} m away",
+        .point[0], .point[1]
+    )]
+    NoColumn {
+        /// Key of the point.
+        key: String,
+        /// The point, m.
+        point: [f64; 2],
+        /// How far the nearest node is, m.
+        distance: f64,
+        /// How far it may be, m.
+        limit: f64,
     },
     /// Parameters that contradict themselves; [`StructureParams::validate`] says so before.
     #[error("structure.{key}: {message}")]

@@ -1,11 +1,12 @@
 //! From a pattern to a frame model: members, supports, panel loads, excluded zones.
 
 use super::AnalysisError;
+use super::loads::load_case;
 use super::panels::Panels;
-use super::supports::{outer_corners, supports};
+use super::supports::{FoundNode, outer_corners, supports};
 use crate::geometry::pattern::Pattern;
-use crate::structure::model::{FrameModel, FrameParts, LoadCase, Material, Member, MemberKind, NodalLoad};
-use crate::structure::params::{ElementsPerMember, LoadParams, StructureParams};
+use crate::structure::model::{EndJoint, FrameModel, FrameParts, Material, Member, MemberKind};
+use crate::structure::params::{ElementsPerMember, StructureParams};
 use crate::structure::section::Section;
 use nalgebra::Vector3;
 
@@ -18,6 +19,8 @@ pub struct GridshellModel {
     pub edge: Vec<u32>,
     /// For each member, whether it counts for `utilisation`.
     pub counts: Vec<bool>,
+    /// Which nodes columns and forces at points have found.
+    pub found: Vec<FoundNode>,
     /// Sum of member lengths, m.
     pub total_length: f64,
     /// Sum of the panels' true areas, m².
@@ -35,6 +38,7 @@ impl GridshellModel {
         let mut nodes = pattern.positions.clone();
         let mut members = Vec::new();
         let mut edge = Vec::new();
+        let joint = |pieces: u32| params.joints.joint(pieces);
         for (e, &[a, b]) in pattern.edges.iter().enumerate() {
             let up = panels.up(a) + panels.up(b);
             let (from, to) = (at(pattern, a), at(pattern, b));
@@ -48,16 +52,20 @@ impl GridshellModel {
                     nodes.push([p.x, p.y, p.z]);
                     (nodes.len() - 1) as u32
                 };
-                members.push(Member {
-                    start,
-                    end,
-                    up: [up.x, up.y, up.z],
-                    section: 0,
-                    kind: MemberKind::RIGID,
-                });
+                let ends = [
+                    if piece == 1 { joint(pieces) } else { EndJoint::RIGID },
+                    if piece == pieces { joint(pieces) } else { EndJoint::RIGID },
+                ];
+                let kind = MemberKind::Beam(ends);
+                members.push(Member { start, end, up: [up.x, up.y, up.z], section: 0, kind });
                 edge.push(e as u32);
                 start = end;
             }
+        }
+        let (supports, mut found) = supports(pattern, &params.supports)?;
+        let mut load_cases = Vec::new();
+        for (name, load) in &params.loads {
+            load_cases.push(load_case(name, load, pattern, &panels, members.len() as u32, &mut found)?);
         }
         let material = &params.material;
         let e = material.youngs_modulus_pa;
@@ -70,11 +78,11 @@ impl GridshellModel {
                 shear_modulus: e / (2.0 * (1.0 + material.poisson)),
                 density: material.density_kg_m3,
                 strength: material.yield_pa / material.gamma_m0,
-                thermal_expansion: 0.0,
+                thermal_expansion: material.thermal_expansion_per_k,
             },
             shear_deformation: params.shear_deformation,
-            supports: supports(pattern, &params.supports)?,
-            load_cases: params.loads.values().map(|load| load_case(load, &panels)).collect(),
+            supports,
+            load_cases,
         };
         let frame = FrameModel::new(parts)?;
         Ok(Self {
@@ -83,6 +91,7 @@ impl GridshellModel {
             panel_area: panels.total_area(),
             frame,
             edge,
+            found,
         })
     }
 }
@@ -115,24 +124,6 @@ fn pieces(rule: ElementsPerMember, length: f64, target: f64) -> Result<u32, Anal
         Ok(count as u32)
     } else {
         Err(AnalysisError::Pattern(format!("a member of {length} m would be split into {count} elements")))
-    }
-}
-
-fn load_case(load: &LoadParams, panels: &Panels) -> LoadCase {
-    let nodal = |areas: &[f64], pressure: f64| -> Vec<NodalLoad> {
-        let loaded = areas.iter().enumerate().filter(|(_, area)| **area != 0.0);
-        loaded
-            .map(|(n, area)| NodalLoad { node: n as u32, load: [0.0, 0.0, -area * pressure, 0.0, 0.0, 0.0] })
-            .collect()
-    };
-    match *load {
-        LoadParams::Gravity { g_m_s2 } => LoadCase { gravity: g_m_s2, ..LoadCase::default() },
-        LoadParams::Area { down_pa } => {
-            LoadCase { nodal: nodal(panels.true_shares(), down_pa), ..LoadCase::default() }
-        }
-        LoadParams::Projected { down_pa } => {
-            LoadCase { nodal: nodal(panels.plan_shares(), down_pa), ..LoadCase::default() }
-        }
     }
 }
 

@@ -35,26 +35,15 @@ impl Panels {
     }
 
     fn add(&mut self, pattern: &Pattern, corners: &[u32]) {
-        let point = |i: usize| Vector3::from(pattern.positions[corners[i % corners.len()] as usize]);
-        let mean = (0..corners.len()).map(point).sum::<Vector3<f64>>() / corners.len() as f64;
-        let mut triangles = [0.0; 4];
-        let mut vector_area = Vector3::zeros();
-        for (i, triangle) in triangles.iter_mut().enumerate().take(corners.len()) {
-            let twice = (point(i) - mean).cross(&(point(i + 1) - mean));
-            *triangle = 0.5 * twice.norm();
-            vector_area += twice * 0.5;
-        }
-        let area: f64 = triangles.iter().sum();
-        let plan = vector_area.z.max(0.0);
-        self.total_area += area;
-        for (i, &corner) in corners.iter().enumerate() {
-            let before = triangles[(i + corners.len() - 1) % corners.len()];
-            let share = 0.5 * (before + triangles[i]);
+        let shape = PanelShape::new(pattern, corners);
+        let plan = shape.plan();
+        self.total_area += shape.area;
+        for (&corner, share) in corners.iter().zip(shape.shares) {
             self.true_shares[corner as usize] += share;
-            if area > 0.0 {
-                self.plan_shares[corner as usize] += plan * share / area;
+            if shape.area > 0.0 {
+                self.plan_shares[corner as usize] += plan * share / shape.area;
             }
-            self.normals[corner as usize] += vector_area;
+            self.normals[corner as usize] += shape.vector_area;
         }
     }
 
@@ -76,5 +65,43 @@ impl Panels {
     /// Sum of the true areas, m².
     pub fn total_area(&self) -> f64 {
         self.total_area
+    }
+}
+
+/// Area, normal and middle of one panel.
+pub struct PanelShape {
+    /// True area, m².
+    pub area: f64,
+    /// Vector area, m²: of what length and direction a pressure acts on.
+    pub vector_area: Vector3<f64>,
+    /// Mean of the corners, m.
+    pub middle: Vector3<f64>,
+    /// True area that belongs to each corner, m²; as many as there are corners.
+    pub shares: [f64; 4],
+}
+
+impl PanelShape {
+    /// Of the panel with these corners.
+    pub fn new(pattern: &Pattern, corners: &[u32]) -> Self {
+        let point = |i: usize| Vector3::from(pattern.positions[corners[i % corners.len()] as usize]);
+        let middle = (0..corners.len()).map(point).sum::<Vector3<f64>>() / corners.len() as f64;
+        let mut triangles = [0.0; 4];
+        let mut vector_area = Vector3::zeros();
+        for (i, triangle) in triangles.iter_mut().enumerate().take(corners.len()) {
+            let twice = (point(i) - middle).cross(&(point(i + 1) - middle));
+            *triangle = 0.5 * twice.norm();
+            vector_area += twice * 0.5;
+        }
+        let mut shares = [0.0; 4];
+        for (i, share) in shares.iter_mut().enumerate().take(corners.len()) {
+            let before = triangles[(i + corners.len() - 1) % corners.len()];
+            *share = 0.5 * (before + triangles[i]);
+        }
+        Self { area: triangles.iter().sum(), vector_area, middle, shares }
+    }
+
+    /// Area of the plan projection, m².
+    pub fn plan(&self) -> f64 {
+        self.vector_area.z.max(0.0)
     }
 }

@@ -2,27 +2,82 @@
 
 use super::AnalysisError;
 use crate::geometry::pattern::Pattern;
-use crate::structure::model::{Direction, Support};
+use crate::structure::model::Support;
 use crate::structure::params::{SupportNodes, SupportParams, SupportPlace};
 
-/// The supports of a pattern, rule by rule.
-pub fn supports(pattern: &Pattern, rules: &[SupportParams]) -> Result<Vec<Support>, AnalysisError> {
-    let mut supports = Vec::new();
-    for rule in rules {
-        let mut fixed = [false; 6];
-        for direction in &rule.fixed {
-            fixed[*direction as usize] = true;
-        }
-        for (_, named) in rule.nodes() {
-            let nodes = nodes(pattern, named)?;
-            supports.extend(nodes.into_iter().map(|node| Support::fixed(node, fixed)));
-        }
-    }
-    Ok(supports)
+/// A node found near a point of the config.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FoundNode {
+    /// Key of the point, below `[structure]`.
+    pub key: String,
+    /// The point in plan, m.
+    pub point: [f64; 2],
+    /// The node.
+    pub node: u32,
+    /// Its distance from the point in plan, m.
+    pub distance: f64,
 }
 
-// `fixed[direction as usize]` above counts on this order.
-const _: () = assert!(Direction::Ux as usize == 0 && Direction::Rz as usize == 5);
+/// The supports of a pattern, rule by rule, and which nodes points inside the roof have found.
+pub fn supports(
+    pattern: &Pattern,
+    rules: &[SupportParams],
+) -> Result<(Vec<Support>, Vec<FoundNode>), AnalysisError> {
+    let mut supports = Vec::new();
+    let mut found = Vec::new();
+    for (i, rule) in rules.iter().enumerate() {
+        let (fixed, stiffness) = rule.holds();
+        for (name, named) in rule.nodes() {
+            let nodes = if let SupportNodes::InsideNear(points) = named {
+                let inside = columns(pattern, points, &format!("support[{i}].{name}"))?;
+                found.extend(inside.iter().cloned());
+                inside.iter().map(|column| column.node).collect()
+            } else {
+                nodes(pattern, named)?
+            };
+            supports.extend(nodes.into_iter().map(|node| Support { node, fixed, stiffness }));
+        }
+    }
+    Ok((supports, found))
+}
+
+/// The nodes inside closest to points.
+fn columns(pattern: &Pattern, points: &[[f64; 2]], key: &str) -> Result<Vec<FoundNode>, AnalysisError> {
+    let mut is_inside = vec![true; pattern.positions.len()];
+    pattern.loops.iter().flatten().for_each(|&v| is_inside[v as usize] = false);
+    let limit = 0.5 * pattern.target_length;
+    let mut all = Vec::new();
+    for (k, &point) in points.iter().enumerate() {
+        let key = format!("{key}[{k}]");
+        let found = nearest(pattern, &key, point, |v| is_inside[v as usize]);
+        match found.first() {
+            Some(column) if column.distance <= limit => all.extend(found),
+            Some(column) => {
+                return Err(AnalysisError::NoColumn { key, point, distance: column.distance, limit });
+            }
+            None => return Err(AnalysisError::NoColumn { key, point, distance: f64::INFINITY, limit }),
+        }
+    }
+    Ok(all)
+}
+
+/// The node closest to a point in plan, of those that are `wanted`; of equally close ones all, so that what is symmetric
+/// stays so.
+pub fn nearest(
+    pattern: &Pattern,
+    key: &str,
+    point: [f64; 2],
+    wanted: impl Fn(u32) -> bool,
+) -> Vec<FoundNode> {
+    let distance = |v: u32| squared(sub(plan(pattern, v), point)).sqrt();
+    let nodes = || (0..pattern.positions.len() as u32).filter(|&v| wanted(v));
+    let least = nodes().map(distance).fold(f64::INFINITY, f64::min);
+    let found = nodes().filter(|&v| distance(v) <= least + EQUAL * pattern.target_length);
+    found.map(|node| FoundNode { key: key.to_owned(), point, node, distance: distance(node) }).collect()
+}
+
+/// Share of the target length by which distances may differ and be equal.
+const EQUAL: f64 = 1e-6;
 
 fn nodes(pattern: &Pattern, named: SupportNodes<'_>) -> Result<Vec<u32>, AnalysisError> {
     Ok(match named {
@@ -33,6 +88,8 @@ fn nodes(pattern: &Pattern, named: SupportNodes<'_>) -> Result<Vec<u32>, Analysi
             Some(vertices) => vertices.clone(),
             None => return Err(AnalysisError::NoSuchLoop { index: k, loops: pattern.loops.len() }),
         },
+        // Found with their distances, by `columns`.
+        SupportNodes::InsideNear(_) => Vec::new(),
         SupportNodes::NodesNear(points) => points.iter().filter_map(|&p| closest_node(pattern, p)).collect(),
         SupportNodes::SidesNear(points) => {
             let sides = sides(pattern);

@@ -1,15 +1,16 @@
-//! Height expressions z = f(x, y): read once, then run as a short program that also gives the exact gradient.
+//! Expressions of `x`, `y` and other variables: read once, then run as a short program that also gives the exact slopes.
 //!
-//! `+ - * / ^`, parentheses, numbers, `x`, `y`, `pi`, `tau`, `e`, named constants, names by `let`, and the functions of
+//! `+ - * / ^`, `< > <= >=` (1 where it holds, else 0; they bind loosest), parentheses, numbers, variables, `pi`, `tau`, `e`, named constants, names by `let`, and the functions of
 //! [`FUNCTIONS`]. As in mathematics −x^2 is −(x²) and 2^3^2 is 2^(3^2) = 512; there is no multiplication without a sign.
 
+pub(crate) mod algebra;
+pub(crate) mod dual;
 mod functions;
 mod parser;
 
 pub use functions::FUNCTIONS;
 
-use super::dual::{Dual, Real};
-use super::height::HeightFunction;
+use dual::Real;
 use functions::Function;
 use std::collections::BTreeMap;
 
@@ -27,7 +28,7 @@ pub struct ExpressionError {
     pub reason: String,
 }
 
-/// A height function given as text.
+/// A function given as text.
 #[derive(Clone, Debug)]
 pub struct Expression {
     text: String,
@@ -38,8 +39,8 @@ pub struct Expression {
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum Op {
     Number(f64),
-    X,
-    Y,
+    /// The variable of this number.
+    Variable(usize),
     /// A named intermediate value.
     Load(usize),
     /// Takes the top of the stack as the next intermediate value.
@@ -49,6 +50,10 @@ enum Op {
     Multiply,
     Divide,
     Power,
+    Less,
+    LessOrEqual,
+    Greater,
+    GreaterOrEqual,
     Negate,
     Call(Function),
 }
@@ -59,7 +64,7 @@ const STACK: usize = 48;
 const NAMES: usize = 32;
 
 impl Expression {
-    /// Reads an expression with its constants and intermediate names `[name, expression]`, each of which may use those before.
+    /// Reads an expression of x and y with its constants and intermediate names `[name, expression]`, each of which may use those before.
     ///
     /// # Errors
     /// The first fault with its position: unknown names and functions, missing operators, wrong numbers of arguments, names given
@@ -69,19 +74,41 @@ impl Expression {
         constants: &BTreeMap<String, f64>,
         lets: &[[String; 2]],
     ) -> Result<Self, ExpressionError> {
-        Ok(Self { text: text.to_owned(), program: parser::program(text, constants, lets)? })
+        Self::parse_of(&["x", "y"], text, constants, lets)
+    }
+
+    /// The same of other variables.
+    ///
+    /// # Errors
+    /// As of [`Expression::parse`].
+    pub fn parse_of(
+        variables: &[&str],
+        text: &str,
+        constants: &BTreeMap<String, f64>,
+        lets: &[[String; 2]],
+    ) -> Result<Self, ExpressionError> {
+        Ok(Self { text: text.to_owned(), program: parser::program(variables, text, constants, lets)? })
+    }
+
+    /// The text it was read from.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The value; `variables` in the order they were given when it was read.
+    pub fn value(&self, variables: &[f64]) -> f64 {
+        self.run(variables)
     }
 
     /// The value for any kind of number.
-    fn run<T: Real>(&self, x: T, y: T) -> T {
+    pub(crate) fn run<T: Real>(&self, variables: &[T]) -> T {
         let zero = T::from(0.0);
         let (mut stack, mut top) = ([zero; STACK], 0);
         let (mut names, mut named) = ([zero; NAMES], 0);
         for op in &self.program {
             let value = match *op {
                 Op::Number(value) => T::from(value),
-                Op::X => x,
-                Op::Y => y,
+                Op::Variable(i) => variables[i],
                 Op::Load(i) => names[i],
                 Op::Store => {
                     top -= 1;
@@ -93,7 +120,15 @@ impl Expression {
                     top -= 1;
                     -stack[top]
                 }
-                Op::Add | Op::Subtract | Op::Multiply | Op::Divide | Op::Power => {
+                Op::Add
+                | Op::Subtract
+                | Op::Multiply
+                | Op::Divide
+                | Op::Power
+                | Op::Less
+                | Op::LessOrEqual
+                | Op::Greater
+                | Op::GreaterOrEqual => {
                     top -= 2;
                     binary(*op, stack[top], stack[top + 1])
                 }
@@ -115,23 +150,17 @@ fn binary<T: Real>(op: Op, a: T, b: T) -> T {
         Op::Subtract => a - b,
         Op::Multiply => a * b,
         Op::Divide => a / b,
+        Op::Less => holds(a.value() < b.value()),
+        Op::LessOrEqual => holds(a.value() <= b.value()),
+        Op::Greater => holds(a.value() > b.value()),
+        Op::GreaterOrEqual => holds(a.value() >= b.value()),
         _ => functions::power(a, b),
     }
 }
 
-impl HeightFunction for Expression {
-    fn z(&self, x: f64, y: f64) -> f64 {
-        self.run(x, y)
-    }
-
-    fn gradient(&self, x: f64, y: f64) -> [f64; 2] {
-        let [x, y] = Dual::variables(x, y);
-        self.run(x, y).slope
-    }
-
-    fn extent(&self) -> String {
-        format!("`{}` gives no finite number there", self.text)
-    }
+/// 1 where something holds, else 0; flat everywhere.
+fn holds<T: Real>(it_does: bool) -> T {
+    T::from(if it_does { 1.0 } else { 0.0 })
 }
 
 #[cfg(test)]
@@ -139,7 +168,37 @@ mod tests {
     use super::*;
 
     fn value(text: &str, x: f64, y: f64) -> f64 {
-        Expression::parse(text, &BTreeMap::new(), &[]).unwrap().z(x, y)
+        Expression::parse(text, &BTreeMap::new(), &[]).unwrap().value(&[x, y])
+    }
+
+    fn slope(f: &Expression, x: f64, y: f64) -> [f64; 2] {
+        f.run(&dual::Dual::variables(x, y)).slope
+    }
+
+    #[test]
+    fn comparisons_are_one_or_zero() {
+        for (text, expected) in [
+            ("x > 0", 1.0),
+            ("x < 0", 0.0),
+            ("x >= 2", 1.0),
+            ("x <= 2", 1.0),
+            ("x + 1 > y", 0.0),
+            ("2 * (x > 0) * (y < 5)", 2.0),
+            ("3 > 2 > 1", 0.0),
+        ] {
+            assert_eq!(value(text, 2.0, 3.0), expected, "{text}");
+        }
+        let half = Expression::parse("y * (x > 0)", &BTreeMap::new(), &[]).unwrap();
+        assert_eq!(slope(&half, 1.0, 5.0), [0.0, 1.0]);
+    }
+
+    #[test]
+    fn other_variables() {
+        let zone =
+            Expression::parse_of(&["x", "y", "z", "nx"], "z * (nx > 0.5)", &BTreeMap::new(), &[]).unwrap();
+        assert_eq!(zone.value(&[0.0, 0.0, 7.0, 0.6]), 7.0);
+        let error = Expression::parse("z", &BTreeMap::new(), &[]).unwrap_err();
+        assert!(error.reason.contains("unknown name `z`"), "{error}");
     }
 
     #[test]
@@ -175,7 +234,7 @@ mod tests {
         let constants = BTreeMap::from([("a".to_owned(), 3.0)]);
         let lets = [["r".to_owned(), "sqrt(x^2 + y^2)".to_owned()], ["q".to_owned(), "r / a".to_owned()]];
         let dome = Expression::parse("q * r + a", &constants, &lets).unwrap();
-        assert!((dome.z(3.0, 4.0) - (25.0 / 3.0 + 3.0)).abs() < 1e-14);
+        assert!((dome.value(&[3.0, 4.0]) - (25.0 / 3.0 + 3.0)).abs() < 1e-14);
     }
 
     #[test]
@@ -216,9 +275,9 @@ mod tests {
         let (x, y, h) = (1.3, 2.2, 1e-6);
         for text in texts {
             let f = Expression::parse(text, &BTreeMap::new(), &[]).unwrap();
-            let g = f.gradient(x, y);
-            let dx = (f.z(x + h, y) - f.z(x - h, y)) / (2.0 * h);
-            let dy = (f.z(x, y + h) - f.z(x, y - h)) / (2.0 * h);
+            let g = slope(&f, x, y);
+            let dx = (f.value(&[x + h, y]) - f.value(&[x - h, y])) / (2.0 * h);
+            let dy = (f.value(&[x, y + h]) - f.value(&[x, y - h])) / (2.0 * h);
             assert!((g[0] - dx).abs() < 1e-7 && (g[1] - dy).abs() < 1e-7, "{text}: {g:?} {dx} {dy}");
         }
     }
@@ -226,9 +285,9 @@ mod tests {
     #[test]
     fn the_gradient_at_a_dome_top_is_finite() {
         let f = Expression::parse("10 - sqrt(x^2 + y^2)", &BTreeMap::new(), &[]).unwrap();
-        assert_eq!(f.gradient(0.0, 0.0), [0.0, 0.0]);
+        assert_eq!(slope(&f, 0.0, 0.0), [0.0, 0.0]);
         let f = Expression::parse("-x^2/40 - y^2/30", &BTreeMap::new(), &[]).unwrap();
-        assert_eq!(f.gradient(0.0, 0.0), [0.0, 0.0]);
+        assert_eq!(slope(&f, 0.0, 0.0), [0.0, 0.0]);
     }
 
     #[test]

@@ -8,10 +8,11 @@ use std::collections::BTreeMap;
 const DEPTH: usize = 200;
 
 /// Binding powers: the larger binds tighter.
-const SUM: u8 = 1;
-const PRODUCT: u8 = 2;
-const SIGN: u8 = 3;
-const POWER: u8 = 4;
+const COMPARISON: u8 = 1;
+const SUM: u8 = 2;
+const PRODUCT: u8 = 3;
+const SIGN: u8 = 4;
+const POWER: u8 = 5;
 
 /// A fault: position in characters and reason.
 type Fault = (usize, String);
@@ -25,11 +26,12 @@ enum Meaning {
 
 /// The steps of all intermediate names and of the expression itself.
 pub(super) fn program(
+    variables: &[&str],
     text: &str,
     constants: &BTreeMap<String, f64>,
     lets: &[[String; 2]],
 ) -> Result<Vec<Op>, ExpressionError> {
-    let mut names = built_in();
+    let mut names = built_in(variables);
     for (name, &value) in constants {
         let fault = |reason| error(&format!("constants.{name}"), name, (0, reason));
         if !value.is_finite() {
@@ -59,13 +61,13 @@ fn error(key: &str, text: &str, (position, reason): Fault) -> ExpressionError {
     ExpressionError { key: key.to_owned(), text, position, reason }
 }
 
-fn built_in() -> BTreeMap<String, Meaning> {
+fn built_in(variables: &[&str]) -> BTreeMap<String, Meaning> {
     use std::f64::consts::{E, PI, TAU};
-    let steps =
-        [("x", Op::X), ("y", Op::Y), ("pi", Op::Number(PI)), ("tau", Op::Number(TAU)), ("e", Op::Number(E))];
+    let numbers = [("pi", PI), ("tau", TAU), ("e", E)].map(|(name, value)| (name, Op::Number(value)));
+    let steps = variables.iter().enumerate().map(|(i, name)| (*name, Op::Variable(i))).chain(numbers);
     let functions =
         FUNCTIONS.iter().filter_map(|n| Some(((*n).to_owned(), Meaning::Function(Function::named(n)?))));
-    steps.into_iter().map(|(n, op)| (n.to_owned(), Meaning::Step(op))).chain(functions).collect()
+    steps.map(|(n, op)| (n.to_owned(), Meaning::Step(op))).chain(functions).collect()
 }
 
 fn declare(names: &mut BTreeMap<String, Meaning>, name: &str, op: Op) -> Result<(), String> {
@@ -122,10 +124,11 @@ impl Parser<'_> {
 
     fn push(&mut self, op: Op) -> Result<(), Fault> {
         self.height = match op {
-            Op::Number(_) | Op::X | Op::Y | Op::Load(_) => self.height + 1,
-            Op::Add | Op::Subtract | Op::Multiply | Op::Divide | Op::Power | Op::Store => self.height - 1,
+            Op::Number(_) | Op::Variable(_) | Op::Load(_) => self.height + 1,
             Op::Negate => self.height,
             Op::Call(function) => self.height + 1 - function.arguments(),
+            // All others take two and give one; to store takes one.
+            _ => self.height - 1,
         };
         if self.height > STACK {
             return Err((self.at, "the expression is nested too deeply".to_owned()));
@@ -142,7 +145,12 @@ impl Parser<'_> {
         }
         self.prefix()?;
         while let Some(c) = self.peek() {
+            let is_or_equal = matches!(c, '<' | '>') && self.letters.get(self.at + 1) == Some(&'=');
             let (op, power) = match c {
+                '<' if is_or_equal => (Op::LessOrEqual, COMPARISON),
+                '>' if is_or_equal => (Op::GreaterOrEqual, COMPARISON),
+                '<' => (Op::Less, COMPARISON),
+                '>' => (Op::Greater, COMPARISON),
                 '+' => (Op::Add, SUM),
                 '-' => (Op::Subtract, SUM),
                 '*' => (Op::Multiply, PRODUCT),
@@ -153,7 +161,7 @@ impl Parser<'_> {
             if power < least {
                 break;
             }
-            self.at += 1;
+            self.at += 1 + usize::from(is_or_equal);
             // Powers group to the right, and their exponent may carry a sign; the others group to the left.
             self.expression(if op == Op::Power { SIGN } else { power + 1 })?;
             self.push(op)?;

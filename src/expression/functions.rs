@@ -1,6 +1,6 @@
 //! The functions that expressions know, each with its derivative; values by `libm`, the same on every platform.
 
-use crate::surface::dual::Real;
+use super::dual::Real;
 
 macro_rules! functions {
     ($($name:literal $variant:ident $arguments:literal),* $(,)?) => {

@@ -5,7 +5,7 @@ use pulp::Simd;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A number to calculate with.
-pub(super) trait Algebra:
+pub trait Algebra:
     Copy
     + Add<Output = Self>
     + Sub<Output = Self>

@@ -4,7 +4,7 @@ use super::algebra::Algebra;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A number that functions of one and two arguments can be applied to by the chain rule.
-pub(super) trait Real: Algebra + From<f64> {
+pub trait Real: Algebra + From<f64> {
     /// The number without its derivatives.
     fn value(self) -> f64;
 
@@ -39,17 +39,17 @@ impl Real for f64 {
 
 /// A number, or a batch of them, with the derivatives by x and y.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Dual<T = f64> {
+pub struct Dual<T = f64> {
     /// The value.
-    pub(super) value: T,
+    pub value: T,
     /// ∂/∂x and ∂/∂y.
-    pub(super) slope: [T; 2],
+    pub slope: [T; 2],
 }
 
 impl<T: Algebra> Dual<T> {
     /// The variables x and y themselves.
     #[inline(always)]
-    pub(super) fn variables(x: T, y: T) -> [Self; 2] {
+    pub fn variables(x: T, y: T) -> [Self; 2] {
         let (zero, one) = (x.constant(0.0), x.constant(1.0));
         [Self { value: x, slope: [one, zero] }, Self { value: y, slope: [zero, one] }]
     }
