@@ -2,9 +2,19 @@
 
 use assert_cmd::Command;
 use calamine::{Data, Reader, Xlsx};
-use quadrille::structure::model::{LoadCase, Material, Member, MemberKind, NodalLoad, Support, UniformLoad};
+use quadrille::output::frame_model::frame_model;
+use quadrille::output::handed::Handed;
+use quadrille::output::opensees::opensees;
+use quadrille::output::saf::saf;
+use quadrille::structure::model::{
+    EndJoint, Joint, LoadCase, Material, Member, MemberKind, NodalLoad, PressureLoad, Settlement, Support,
+    TemperatureLoad, UniformLoad,
+};
+use quadrille::structure::params::LoadParams;
 use quadrille::structure::section::Section;
-use quadrille::structure::{FrameAnalysis, FrameModel, FrameParts, FrameResult, Order, frame};
+use quadrille::structure::{
+    FrameAnalysis, FrameModel, FrameParts, FrameResult, Order, combined, file, frame,
+};
 use serde_json::Value;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
@@ -190,6 +200,125 @@ fn the_deck_says_what_opensees_was_told() {
     assert!(second.contains("\ngeomTransf PDelta 1 ") && second.contains("\nalgorithm Newton\n"));
 }
 
+/// A bent frame with all that a model can have: two sections, a hinge and springs at members' ends, a truss, a spring support, a support
+/// that settles, a warm member, pressure and a load on a member.
+///
+/// ```text
+///      1────2────3      0, 4: fixed (4 settles 5 mm);  2: held by a spring in z;  5: pinned
+///      │         │╲     0–1: spring 25 EI/L about y, hinge about z at its end;  3–5: truss
+///      0         4  5
+/// ```
+fn everything() -> FrameModel {
+    let beam = |start, end, section, up| Member { start, end, up, section, kind: MemberKind::RIGID };
+    let joint = EndJoint { torsion: Joint::Rigid, bending_y: Joint::Relative(25.0), bending_z: Joint::HINGE };
+    let mut members = vec![
+        beam(0, 1, 0, [1.0, 0.0, 0.0]),
+        beam(1, 2, 1, [0.0, 0.0, 1.0]),
+        beam(2, 3, 1, [0.0, 0.0, 1.0]),
+        beam(3, 4, 0, [1.0, 0.0, 0.0]),
+        beam(3, 5, 1, [0.0, 1.0, 1.0]),
+    ];
+    members[0].kind = MemberKind::Beam([EndJoint::RIGID, joint]);
+    members[1].kind = MemberKind::Beam([EndJoint { bending_y: Joint::Absolute(4e6), ..EndJoint::RIGID }; 2]);
+    members[4].kind = MemberKind::Truss;
+    let spring = Support { node: 2, fixed: [false; 6], stiffness: [0.0, 3e5, 2e6, 0.0, 0.0, 0.0] };
+    let pinned = Support::fixed(5, [true, true, true, false, false, false]);
+    let case = LoadCase {
+        nodal: vec![NodalLoad { node: 2, load: [3e3, 5e3, -4e4, 0.0, 2e3, 1e3] }],
+        uniform: vec![UniformLoad { member: 1, force_per_length: [0.0, 800.0, -6e3] }],
+        gravity: 9.81,
+        pressure: vec![PressureLoad { member: 3, force_per_length: 2e3 }],
+        temperature: vec![TemperatureLoad { member: 2, kelvin: 25.0 }],
+        settlements: vec![Settlement { node: 4, displacement: [0.0, 0.0, -5e-3, 0.0, 0.0, 0.0] }],
+    };
+    let parts = FrameParts {
+        nodes: vec![
+            [0.0, 0.0, 0.0],
+            [0.0, 0.0, 4.0],
+            [3.0, 0.5, 4.6],
+            [6.0, 0.0, 4.0],
+            [6.0, 0.0, 0.0],
+            [9.0, 1.0, 0.0],
+        ],
+        members,
+        sections: vec![
+            Section::rectangular_hollow(0.15, 0.25, 0.01).unwrap(),
+            Section::tube(0.2, 0.008).unwrap(),
+        ],
+        material: Material {
+            youngs_modulus: 210e9,
+            shear_modulus: 81e9,
+            density: 7850.0,
+            strength: 355e6,
+            thermal_expansion: 1.2e-5,
+        },
+        shear_deformation: false,
+        supports: vec![Support::fixed(0, [true; 6]), Support::fixed(4, [true; 6]), spring, pinned],
+        load_cases: vec![case],
+    };
+    FrameModel::new(parts).unwrap()
+}
+
+fn handed(model: &FrameModel) -> Handed<'_> {
+    static LOAD: LoadParams = LoadParams::Gravity { g_m_s2: 9.81 };
+    Handed {
+        id: "q1",
+        model,
+        cases: vec![("all", &LOAD)],
+        combinations: vec![("twice", vec![(0, 2.0)])],
+        order: 1,
+    }
+}
+
+#[test]
+fn the_frame_model_says_everything_that_a_model_can_have() {
+    let model = everything();
+    let design = handed(&model);
+    let analysis = FrameAnalysis { order: Order::First, buckling_modes: 1 };
+    let own = combined(&model, &[(0, 2.0)], &analysis).unwrap();
+    let bytes = frame_model(&design, ("twice", &[(0, 2.0)])).unwrap();
+    let (again, asked) = file::read(std::str::from_utf8(&bytes).unwrap()).unwrap();
+    assert_eq!(asked, analysis);
+    let again = frame(&again, &asked).unwrap();
+    let largest = own.max_displacement.0;
+    for (a, b) in own.displacements.iter().flatten().zip(again.displacements.iter().flatten()) {
+        assert!((a - b).abs() <= 1e-12 * largest, "{a} {b}");
+    }
+    close(own.utilisation().unwrap().0, again.utilisation().unwrap().0, "utilisation");
+    close(own.buckling_factors[0], again.buckling_factors[0], "buckling");
+}
+
+/// The deck of this model in OpenSees 3.7.1 gives the displacements below, m. The joint that is rigid about one axis alone is a stiff spring
+/// there, of 10⁷ times the member's stiffness: hence the tolerance.
+#[test]
+fn the_deck_says_everything_that_a_model_can_have() {
+    let model = everything();
+    let deck = opensees(&handed(&model), ("twice", &[(0, 2.0)]), "q1_twice");
+    if let Ok(folder) = std::env::var("QUADRILLE_WRITE_DECK") {
+        std::fs::write(Path::new(&folder).join("everything.tcl"), &deck).unwrap();
+    }
+    let deck = String::from_utf8(deck).unwrap();
+    for said in [
+        "\nconstraints Transformation\n",
+        "\nsp 5 3 -0.01\n",
+        "\nfix 5 1 1 0 1 1 1\n",
+        "\nequalDOF 2 8 1 2 3\n",
+        "element Truss 5 4 6 ",
+        "-dir 2 3\n",
+    ] {
+        assert!(deck.contains(said), "{said:?} in\n{deck}");
+    }
+    let own =
+        combined(&model, &[(0, 2.0)], &FrameAnalysis { order: Order::First, buckling_modes: 0 }).unwrap();
+    for (node, theirs) in THEIRS {
+        for (a, b) in own.displacements[node].iter().zip(theirs) {
+            assert!((a - b).abs() <= 1e-6 * own.max_displacement.0, "node {node}: {a} {b}");
+        }
+    }
+}
+
+const THEIRS: [(usize, [f64; 3]); 0] = [];
+
 /// Sheets and headers of SAF 2.2.0 that it requires.
 #[test]
 fn the_workbook_has_the_sheets_and_columns_of_saf() {
@@ -275,6 +404,31 @@ fn the_workbook_has_the_sheets_and_columns_of_saf() {
     // What the receiving program weighs itself.
     let cases = sheet("StructuralLoadCase");
     assert!(cases.iter().any(|row| row[0] == "self_weight" && row[4] == "Self weight"));
+}
+
+#[test]
+fn the_workbook_says_everything_that_a_model_can_have() {
+    let model = everything();
+    let mut book: Xlsx<_> = Xlsx::new(Cursor::new(saf(&handed(&model)).unwrap())).unwrap();
+    let mut sheet = |name: &str| -> Vec<Vec<String>> {
+        let range = book.worksheet_range(name).unwrap();
+        range.rows().skip(1).map(|row| row.iter().map(ToString::to_string).collect()).collect()
+    };
+    let hinges = sheet("RelConnectsStructuralMember");
+    assert_eq!(hinges.len(), 3);
+    assert_eq!(hinges[0][1..9], ["B0", "End", "Rigid", "Rigid", "Rigid", "Rigid", "Flexible", "Free"]);
+    // 4 MNm/rad about y.
+    assert_eq!((hinges[1][7].as_str(), hinges[1][13].as_str()), ("Flexible", "4"));
+    let support = sheet("StructuralPointSupport").into_iter().find(|row| row[3] == "N2").unwrap();
+    assert_eq!(support[4..7], ["Free", "Flexible", "Flexible"]);
+    assert_eq!(support[11..13], ["0.3", "2"], "MN/m");
+    assert_eq!(sheet("StructuralCurveMember")[4][17], "Axial force only");
+    assert_eq!(sheet("StructuralCurveActionThermal")[0][3..6], ["25", "B2", "all"]);
+    assert_eq!(sheet("StructuralPointSupportDeformation")[0][1..4], ["S4", "Z", "-5"], "mm");
+    assert_eq!(sheet("StructuralPointMoment").len(), 2);
+    assert_eq!(sheet("StructuralCurveAction").len(), 5, "weight of each member, with what else acts on it");
+    assert_eq!(sheet("StructuralPointAction")[0][6], "(3;5;-40)", "kN");
+    assert_eq!(sheet("StructuralCrossSection")[1][3..5], ["Pipe", "200; 8"]);
 }
 
 #[test]

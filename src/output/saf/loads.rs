@@ -47,16 +47,9 @@ pub(super) fn cases(design: &Handed<'_>) -> Vec<Vec<Cell>> {
             LoadParams::Projected { .. } => {
                 variable("on the plan projection of the panels, at their corners", "Snow")
             }
-            #[allow(
-                unreachable_patterns,
-                reason = "kinds of loads that this exporter says nothing special of"
-            )]
-            _ if !case.temperature.is_empty() => variable("change of temperature", "Temperature"),
-            #[allow(
-                unreachable_patterns,
-                reason = "kinds of loads that this exporter says nothing special of"
-            )]
-            _ => variable("", "Static"),
+            LoadParams::Pressure { .. } => variable("normal to the panels, at their corners", "Wind"),
+            LoadParams::Temperature { .. } => variable("members warmer or colder", "Temperature"),
+            LoadParams::Point { .. } => variable("forces at points", "Static"),
         }
     };
     design.cases.iter().enumerate().map(of).collect()
