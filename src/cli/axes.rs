@@ -20,7 +20,7 @@ pub struct Args {
     #[command(flatten)]
     config: ConfigArgs,
     /// How many designs.
-    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     designs: u32,
     /// Threads; 0 = one per core.
     #[arg(long, value_name = "N")]

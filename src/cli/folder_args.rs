@@ -2,6 +2,7 @@
 
 use super::config_args::located;
 use super::{CliError, Console};
+use clap::builder::{PathBufValueParser, TypedValueParser};
 use quadrille::config::ResolvedConfig;
 use quadrille::files::lock::Lock;
 use quadrille::grammar::Tokens;
@@ -48,8 +49,13 @@ pub struct FolderArgs {
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
     /// Folder of the files that the config names, where they are no longer as and where they were.
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_parser = PathBufValueParser::new().try_map(there))]
     pub inputs: Option<PathBuf>,
+}
+
+/// A folder that is there.
+fn there(folder: PathBuf) -> Result<PathBuf, &'static str> {
+    if folder.is_dir() { Ok(folder) } else { Err("there is no such folder") }
 }
 
 impl FolderArgs {

@@ -39,7 +39,7 @@ use std::process::ExitCode;
 #[derive(clap::Args)]
 #[command(verbatim_doc_comment)]
 pub struct Args {
-    /// The model.
+    /// The model; `-` is stdin.
     #[arg(value_name = "MODEL.json")]
     model: PathBuf,
     /// What to print.

@@ -134,7 +134,11 @@ fn name_of(stem: &str) -> String {
     let fits = |c: char| if rules::fits_in_a_name(c) { c } else { '_' };
     let name: String = stem.chars().map(fits).collect();
     let name = name.trim_end_matches(['.', ' ']);
-    if name.is_empty() { "run".to_owned() } else { name.to_owned() }
+    match name {
+        "" => "run".to_owned(),
+        name if rules::is_name_of_a_folder(name) => name.to_owned(),
+        device => format!("{device}_"),
+    }
 }
 
 fn parse(source: &Source) -> Result<Config, ConfigError> {

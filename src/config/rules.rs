@@ -38,6 +38,17 @@ pub(super) fn fits_in_a_name(c: char) -> bool {
     !c.is_control() && !"/\\:*?\"<>|".contains(c)
 }
 
+/// Whether a folder can be called so, on any system.
+pub(super) fn is_name_of_a_folder(name: &str) -> bool {
+    let stem = name.split('.').next().unwrap_or_default().trim_end().to_ascii_uppercase();
+    let numbered = ["COM", "LPT"].iter().filter_map(|device| stem.strip_prefix(device));
+    let is_device = ["CON", "PRN", "AUX", "NUL"].contains(&stem.as_str())
+        || numbered
+            .into_iter()
+            .any(|number| number.len() == 1 && number.starts_with(|c: char| ('1'..='9').contains(&c)));
+    !name.is_empty() && !name.ends_with(['.', ' ']) && !is_device && name.chars().all(fits_in_a_name)
+}
+
 struct Rules<'a> {
     inputs: &'a Inputs,
     problems: Vec<Problem>,
@@ -67,10 +78,10 @@ impl Rules<'_> {
             self.refuse("version", format!("found {}; allowed: {VERSION}", config.version));
         }
         let name = config.run.name.as_deref().unwrap_or_default();
-        if name.trim_matches(['.', ' ']).is_empty() || !name.chars().all(fits_in_a_name) {
+        if !is_name_of_a_folder(name) {
             let message = format!(
-                "found {name:?}; allowed: a name of a folder, with any characters but / \\ : * ? \" < > | and control characters, \
-                 and not of dots and spaces alone"
+                "found {name:?}; allowed: a name of a folder on any system, with any characters but / \\ : * ? \" < > | and control \
+                 characters, without a dot or space at its end, and none of Windows' devices (CON, NUL, COM1, …)"
             );
             self.refuse("run.name", message);
         }

@@ -3,7 +3,6 @@
 use super::error::{ConfigError, Located, Place, Problem};
 use super::path::{KeyPath, Segment};
 use crate::io::text;
-use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
@@ -23,11 +22,8 @@ impl Source {
     /// # Errors
     /// If the file cannot be read or is not TOML, or an argument is not `key=value` with a key that can be set.
     pub fn read(file: &Path, sets: &[String]) -> Result<Self, ConfigError> {
-        let read = match file == Path::new("-") {
-            true => stdin(),
-            false => text::read(file),
-        };
-        let text = read.map_err(|source| ConfigError::Read { file: file.to_path_buf(), source })?;
+        let text =
+            text::read(file).map_err(|source| ConfigError::Read { file: file.to_path_buf(), source })?;
         Self::parse(file, text, sets)
     }
 
@@ -97,12 +93,6 @@ impl Source {
         located.sort_by(|a, b| a.place.cmp(&b.place));
         ConfigError::Invalid(located)
     }
-}
-
-fn stdin() -> io::Result<String> {
-    let mut bytes = Vec::new();
-    io::stdin().read_to_end(&mut bytes)?;
-    text::owned(&bytes)
 }
 
 /// What the parser says; of a number that TOML has no room for, also what it has room for.

@@ -91,7 +91,7 @@ pub fn shape(
     let optimiser = Optimiser::new(&task, &ground);
     let probe = stage.probe(params.max_faces)?.into_sheet(&ground);
     if params.relax.kind == RelaxKind::Optimise {
-        let first = stage.place(&optimiser.coarse_rows(&probe), Folds::Unfold)?.into_sheet(&ground);
+        let first = stage.place(&optimiser.coarse_rows(&probe)?, Folds::Unfold)?.into_sheet(&ground);
         return optimiser.run(first);
     }
     let rows = optimiser.pattern_rows(&probe)?;

@@ -1,8 +1,9 @@
 //! Bytes of a file as text: what editors, spreadsheets and shells put around it.
 
 use std::borrow::Cow;
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::Path;
-use std::{fs, io};
 
 /// The text of a file in UTF-8, or in UTF-16 with a byte order mark, as spreadsheets ("Unicode text") and PowerShell write it; without
 /// that mark.
@@ -20,12 +21,29 @@ pub fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, (usize, String)> {
     })
 }
 
-/// The text of a file on the disk ([`decode`]).
+/// What is read of a file at most: a device or a pipe that never ends would fill the memory.
+const MOST_BYTES: u64 = 1 << 30;
+
+/// The text of a file on the disk, or of stdin where it is called `-` ([`decode`]).
 ///
 /// # Errors
-/// It cannot be read, or is in another encoding; then the line is told.
+/// It cannot be read, has more than a gigabyte, or is in another encoding; then the line is told.
 pub fn read(file: &Path) -> io::Result<String> {
-    owned(&fs::read(file)?)
+    match file == Path::new("-") {
+        true => whole(io::stdin().lock(), MOST_BYTES),
+        false => whole(File::open(file)?, MOST_BYTES),
+    }
+}
+
+fn whole(from: impl Read, most: u64) -> io::Result<String> {
+    let mut bytes = Vec::new();
+    from.take(most + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > most {
+        let message =
+            format!("more than {most} bytes: a device, a pipe that does not end, or no file of this kind");
+        return Err(io::Error::new(io::ErrorKind::InvalidData, message));
+    }
+    owned(&bytes)
 }
 
 /// As [`decode`], with the error as that of reading.
@@ -101,6 +119,13 @@ mod tests {
         assert_eq!(of("a\nb\r\nc\rd"), ["a", "b", "c", "d"]);
         assert_eq!(of("a\r\r\nb\n"), ["a", "", "b"]);
         assert_eq!(of(""), [""; 0]);
+    }
+
+    #[test]
+    fn what_never_ends_is_refused() {
+        assert_eq!(whole(&b"abc"[..], 3).unwrap(), "abc");
+        let endless = whole(io::repeat(b'a'), 3).unwrap_err().to_string();
+        assert!(endless.starts_with("more than 3 bytes"), "{endless}");
     }
 
     #[test]

@@ -23,7 +23,7 @@ pub struct StructureParams {
     pub order: u8,
     /// Relative change of the axial forces at which the second-order iteration of a search stops.
     #[serde(default = "defaults::second_order_tolerance")]
-    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
+    #[schemars(extend("minimum" = 1e-12, "maximum" = 1e-2))]
     pub second_order_tolerance: f64,
     /// The height of the section: fixed, or sized to the requirements.
     #[serde(default)]

@@ -160,3 +160,31 @@ fn what_is_seldom_meant_is_told() {
     let quiet = surface(SURFACE, &limit(0.5));
     assert!(!quiet.contains("min_edge_m") && !quiet.contains("across"), "{quiet}");
 }
+
+/// A slip of a digit in one point or one height asks for more panels than memory holds: the pattern is refused, and nothing is allocated
+/// for it. (These ended in "memory allocation failed".)
+#[test]
+fn a_point_far_away_takes_no_memory() {
+    let folder = tempfile::tempdir().unwrap();
+    let n = 10;
+    let vertex = |k: usize| {
+        let (i, j) = (k / (n + 1), k % (n + 1));
+        format!("v {i} {j} {}\n", if k == 60 { 1e7 } else { 0.1 * i as f64 })
+    };
+    let face = |k: usize| {
+        let a = k / n * (n + 1) + k % n + 1;
+        format!("f {a} {} {} {}\n", a + n + 1, a + n + 2, a + 1)
+    };
+    let mesh: String =
+        (0..(n + 1) * (n + 1)).map(vertex).chain((0..n * n).map(face)).collect::<Vec<_>>().concat();
+    fs::write(folder.path().join("spike.obj"), mesh).unwrap();
+    let far = "kind = \"polyline\"\npoints_m = [[0, 0], [1e7, 0], [12, 12], [0, 12]]";
+    let spike = "kind = \"mesh\"\nfile = \"spike.obj\"";
+    for text in [config(far, "", SURFACE, INITIAL), config(LOOP, "", spike, INITIAL)] {
+        for text in [&text, &text.replace(INITIAL, "\"skeleton\"")] {
+            let (code, told) = check(folder.path(), text);
+            assert!(code == Some(0) || code == Some(2), "{code:?} {told}");
+            assert!(!told.contains("memory allocation"), "{told}");
+        }
+    }
+}

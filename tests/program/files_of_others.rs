@@ -194,6 +194,7 @@ fn names_of_files() {
         ("a#b, c; 100 % 'd' [e] = {f} & g", "a#b, c; 100 % 'd' [e] = {f} & g"),
         ("what? a\"b*", "what_ a_b_"),
         ("two\nlines", "two_lines"),
+        ("aux", "aux_"),
         ("ends in dots..", "ends in dots"),
         ("屋根 😀", "屋根 😀"),
     ] {
@@ -203,7 +204,7 @@ fn names_of_files() {
         assert_eq!(output.status.code(), Some(0), "{file:?}: {}", String::from_utf8_lossy(&output.stderr));
         assert!(folder.join("results").join(name).join("pareto.csv").exists(), "{name:?}");
     }
-    for name in ["a/b", "..", " ", "a\\\\b", "a:b"] {
+    for name in ["a/b", "..", " ", "a\\\\b", "a:b", "con", "LPT1.x", "roof."] {
         fs::write(
             folder.join("c.toml"),
             text.replace("[topology]", &format!("[run]\nname = \"{name}\"\n[topology]")),

@@ -65,6 +65,8 @@ fn a_changed_input_is_named() {
     assert!(stderr.contains("warning: ") && stderr.contains("in/roof.obj: was changed"), "{stderr}");
     let (_, _, stderr) = quadrille(folder.path(), &["report", "r", "--inputs", "backup"]);
     assert_eq!(stderr, "");
+    let (code, _, stderr) = quadrille(folder.path(), &["report", "r", "--inputs", "nowhere"]);
+    assert!(code == Some(2) && stderr.contains("there is no such folder"), "{stderr}");
     let (code, _, stderr) = quadrille(folder.path(), &["run", "c.toml", "--out", "r", "--resume"]);
     assert!(code == Some(2) && stderr.contains("what is in the file in/roof.obj"), "{stderr}");
 }

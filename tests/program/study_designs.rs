@@ -14,7 +14,8 @@ fn great_court() -> Study {
 
 fn great_court_of(panels: usize) -> Study {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("configs/great_court.toml");
-    let sets = [format!("pattern.panels={panels}"), "search.tokens.max=12".to_owned()];
+    let sets = [&format!("pattern.panels={panels}"), "search.tokens.max=12", "topology.symmetry=[]"]
+        .map(str::to_owned);
     let config = ResolvedConfig::open(&file, &sets).unwrap();
     Study::of(&config).unwrap()
 }

@@ -186,7 +186,7 @@ impl<'a> Optimiser<'a> {
                 }
             }
             let rows = self.rows_of_coarse(&shaped, &at_least);
-            if rows == shaped.dense_parts(self.task.coarse) {
+            if rows == shaped.dense_parts(self.task.coarse) || self.check_count(&rows).is_err() {
                 break;
             }
             let next = resample::resample(self.task.coarse, self.ground, &shaped, &rows);
@@ -200,8 +200,13 @@ impl<'a> Optimiser<'a> {
     }
 
     /// Rows of a coarse pattern of about N/4 panels, measured on a sheet of any densities.
-    pub fn coarse_rows(&self, sheet: &Sheet) -> Vec<u32> {
-        self.rows_of_coarse(sheet, &[])
+    ///
+    /// # Errors
+    /// [`Rejection::TooManyFaces`]: a boundary with a point far away asks for more than memory holds.
+    pub fn coarse_rows(&self, sheet: &Sheet) -> Result<Vec<u32>, Rejection> {
+        let rows = self.rows_of_coarse(sheet, &[]);
+        self.check_count(&rows)?;
+        Ok(rows)
     }
 
     fn rows_of_coarse(&self, sheet: &Sheet, at_least: &[u32]) -> Vec<u32> {

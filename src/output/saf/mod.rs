@@ -82,7 +82,7 @@ pub fn saf(design: &Handed<'_>) -> Result<Vec<u8>, XlsxError> {
     sheet("StructuralPointMoment", POINT_MOMENT, point_moments(design))?;
     sheet("StructuralCurveAction", CURVE_ACTION, curve_actions(design))?;
     sheet("StructuralCurveActionThermal", THERMAL, thermal(design))?;
-    sheet("StructuralPointSupportDeformation", DEFORMATION, deformations(design))?;
+    sheet("StructuralPointSupportDef", DEFORMATION, deformations(design))?;
     workbook.save_to_buffer()
 }
 
