@@ -2,7 +2,6 @@
 
 use super::config_args::located;
 use super::{CliError, Console};
-use clap::builder::{PathBufValueParser, TypedValueParser};
 use quadrille::config::ResolvedConfig;
 use quadrille::files::lock::Lock;
 use quadrille::grammar::Tokens;
@@ -49,13 +48,8 @@ pub struct FolderArgs {
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
     /// Folder of the files that the config names, where they are no longer as and where they were.
-    #[arg(long, value_name = "DIR", value_parser = PathBufValueParser::new().try_map(there))]
-    pub inputs: Option<PathBuf>,
-}
-
-/// A folder that is there.
-fn there(folder: PathBuf) -> Result<PathBuf, &'static str> {
-    if folder.is_dir() { Ok(folder) } else { Err("there is no such folder") }
+    #[arg(long, value_name = "DIR")]
+    inputs: Option<PathBuf>,
 }
 
 impl FolderArgs {
@@ -76,9 +70,19 @@ impl FolderArgs {
         Ok((loaded, study))
     }
 
+    /// The folder of `--inputs`, if it is there.
+    pub fn inputs(&self) -> Result<Option<&Path>, CliError> {
+        match &self.inputs {
+            Some(folder) if !folder.is_dir() => {
+                Err(CliError::Input(format!("--inputs {}: there is no such folder", folder.display())))
+            }
+            folder => Ok(folder.as_deref()),
+        }
+    }
+
     fn study(&self, loaded: &Loaded) -> Result<Study, CliError> {
         let Loaded { manifest, config, .. } = loaded;
-        let inputs = inputs::again(manifest, config, self.inputs.as_deref());
+        let inputs = inputs::again(manifest, config, self.inputs()?);
         let inputs = inputs.map_err(|wrong| {
             CliError::Input(wrong.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
         })?;

@@ -28,7 +28,7 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
         console.note(&unfinished(folder, &loaded));
     }
     // The page says what the run found, and needs these only to group designs; other commands need them.
-    let inputs = inputs::again(&loaded.manifest, &loaded.config, args.run.inputs.as_deref());
+    let inputs = inputs::again(&loaded.manifest, &loaded.config, args.run.inputs()?);
     for error in inputs.as_ref().err().into_iter().flatten() {
         console.warn(&error.to_string());
     }

@@ -195,7 +195,8 @@ fn the_deck_says_what_opensees_was_told() {
     close(corner[0], 391_918.49260457925, "reaction of node 1, N");
     close(corner[2], 251_011.42319609958, "reaction of node 1, N");
     close(largest(&result, |end| end.n), 366_941.75597964425, "axial force at an end, N");
-    close(largest(&result, |end| end.my), 70_638.03266277311, "moment at an end, Nm");
+    close(largest(&result, |end| end.my), 20_958.85108534765, "moment about y at an end, Nm");
+    close(largest(&result, |end| end.mz), 70_638.03266277311, "moment about z at an end, Nm");
     let second = String::from_utf8(export(2, "opensees", &["--combination", "uls"])).unwrap();
     assert!(second.contains("\ngeomTransf PDelta 1 ") && second.contains("\nalgorithm Newton\n"));
 }
