@@ -11,7 +11,7 @@ use quadrille::output::compas::compas;
 use quadrille::output::designs::id;
 use quadrille::output::dxf::dxf;
 use quadrille::output::frame_model::frame_model;
-use quadrille::output::handed::Handed;
+use quadrille::output::handed::{Combination, Handed};
 use quadrille::output::load::Loaded;
 use quadrille::output::obj::obj;
 use quadrille::output::opensees::opensees;
@@ -155,7 +155,7 @@ fn handed_on(
             "--combination {found}: there is none of that name; allowed: {all}"
         )));
     }
-    let file = |(file, (name, factors)): (String, &(&str, Vec<(usize, f64)>))| {
+    let file = |(file, (name, factors)): (String, &Combination)| {
         let file = format!("{id}_{file}");
         Ok(match format {
             Format::Frame => {

@@ -10,6 +10,9 @@ use crate::structure::params::{LoadParams, StructureParams};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
+/// A combination: its name, and load cases by number, each with its factor.
+pub type Combination<'a> = (&'a str, Vec<(usize, f64)>);
+
 /// A structure with its loads.
 #[derive(Clone, Debug)]
 pub struct Handed<'a> {
@@ -20,7 +23,7 @@ pub struct Handed<'a> {
     /// The load cases, in the model's order.
     pub cases: Vec<(&'a str, &'a LoadParams)>,
     /// The combinations by name: load cases by number, each with its factor.
-    pub combinations: Vec<(&'a str, Vec<(usize, f64)>)>,
+    pub combinations: Vec<Combination<'a>>,
     /// 1 or 2: whether the deformed structure is in equilibrium.
     pub order: u8,
 }

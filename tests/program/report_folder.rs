@@ -32,7 +32,7 @@ fn manifest() -> String {
     let config = config.replace("reference = [0.15, 0.02, 1.5]", "reference = [1e4, 1.5]");
     // Manifests record what a config means, all defaults in it.
     let config =
-        config::to_toml(&ResolvedConfig::parse(&config, "ci.toml".as_ref(), &[]).expect("a config").config());
+        config::to_toml(ResolvedConfig::parse(&config, "ci.toml".as_ref(), &[]).expect("a config").config());
     serde_json::json!({
         "manifest_version": 1, "program": "quadrille", "program_version": "0.1.0", "name": "tripod",
         "objectives": ["mass_kg", "edge_spread_m"], "seed": u64::MAX, "threads": 2, "status": "finished",

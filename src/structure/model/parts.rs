@@ -252,7 +252,7 @@ pub struct LoadCase {
     pub settlements: Vec<Settlement>,
 }
 
-/// What a model is built from; see [`FrameModel::new`].
+/// What a model is built from; see [`FrameModel::new`](super::FrameModel::new).
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameParts {
     /// Node positions, m.
