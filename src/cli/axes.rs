@@ -44,6 +44,12 @@ pub fn run(args: Args, console: &Console) -> Result<ExitCode, CliError> {
     let Some(axes) = Normalisation::quantiles(points.clone()) else {
         return Err(CliError::Failed("none of these designs has all objectives".into()));
     };
+    let spans = config.objectives.names().zip(axes.ideal.iter().zip(&axes.reference));
+    for (name, (value, _)) in spans.filter(|(_, (ideal, reference))| ideal >= reference) {
+        console.warn(&format!(
+            "{name} is {value} in all these designs: no axis, and a config with it is refused; more --designs, or leave it out"
+        ));
+    }
     outln!("# 1 % and 95 % quantiles of {} of {} random designs", points.count(), evaluations.len());
     outln!("ideal = {}", list(&config.objectives.turned(&axes.ideal)));
     outln!("reference = {}", list(&config.objectives.turned(&axes.reference)));

@@ -80,6 +80,10 @@ fn without_mark(bytes: &[u8]) -> &[u8] {
 /// A text that begins with the byte order mark of UTF-16.
 fn utf16(bytes: &[u8]) -> Option<Result<String, (usize, String)>> {
     let (rest, low_first) = match bytes {
+        // Of UTF-32, whose texts of the languages on earth have a zero in every fourth place.
+        [0xFF, 0xFE, 0, 0, ..] | [0, 0, 0xFE, 0xFF, ..] => {
+            return Some(Err((1, "a text in UTF-32; save the file as UTF-8".to_owned())));
+        }
         [0xFF, 0xFE, rest @ ..] => (rest, true),
         [0xFE, 0xFF, rest @ ..] => (rest, false),
         _ => return None,
@@ -134,6 +138,9 @@ mod tests {
         assert_eq!(decode(b"\xFF\xFEa\0\xE9\0").unwrap(), "aé");
         assert_eq!(decode(b"\xFE\xFF\0a\0\xE9").unwrap(), "aé");
         assert_eq!(decode(b"a\nb\xE9").unwrap_err().0, 2);
+        for bytes in [&b"\xFF\xFE\0\0a\0\0\0"[..], b"\0\0\xFE\xFF\0\0\0a"] {
+            assert!(decode(bytes).unwrap_err().1.contains("UTF-32"));
+        }
         assert_eq!(decode_lossy(b"a\xE9").unwrap(), "a\u{FFFD}");
         for bytes in [&b"a\n\0"[..], b"\xFF\xFEa", b"\xFF\xFE\0\xD8"] {
             assert!(decode_lossy(bytes).unwrap_err().1.contains("UTF-8"));
